@@ -64,7 +64,7 @@ int run_program(int argc, char **argv)
   return exit_wrong_input;
 }
 
-/// Why there is no answer, for people or in the document.
+/// Reports the reason of a failure, in the terminal or in the JSON document.
 int fail(int exit_code, const std::string &message, JsonAnswer &answer)
 {
   answer.failed(message);
@@ -88,7 +88,7 @@ std::string words_of(int argc, char **argv)
   return words;
 }
 
-/// Whether this process goes its own way: each for a case, or ranks that make shares of a study.
+/// Detaches processes from the common computation: one case per process, or groups of ranks for shares of a study.
 void choose_team(int argc, char **argv)
 {
   if (has_word(argc, argv, "--apart") || apart_by_environment())
@@ -139,7 +139,7 @@ int run_guarded(int argc, char **argv, JsonAnswer &answer)
   }
   catch (const std::exception &error)
   {
-    if (interruption()) // what was under way then fails somewhere
+    if (interruption()) // an interruption makes the current work fail
       return fail(exit_interrupted, std::string("interrupted: ") + error.what(), answer);
     if (is_of_a_name(error))
       return fail(exit_wrong_input, std::string(error.what()) + "; give another name", answer);

@@ -40,7 +40,7 @@ class Branches
 public:
   virtual int n_history() const = 0;
 
-  /// Sets the history for a motion that begins here.
+  /// Sets the history for a motion that starts here.
   virtual void start(const LocalMotion &motion, double *history) const = 0;
   /// The same for an element that is switched on again: earlier commands remain in effect.
   virtual void resume(const LocalMotion &motion, double *history) const { start(motion, history); }
@@ -55,7 +55,7 @@ public:
   virtual std::vector<Guard> guards(const double *history) const                                             = 0;
   virtual int                n_guards(const double *history) const                                           = 0;
   virtual void               guard_values(const LocalMotion &motion, const double *history, double *g) const = 0;
-  /// Takes the transition of guard i at the motion where it crossed zero.
+  /// Executes the transition of guard i at the motion where it crossed zero.
   virtual void transition(int i, const LocalMotion &motion, double *history) const = 0;
 
 protected:

@@ -13,14 +13,14 @@
 namespace gestell::mechanism
 {
 
-/// LocalMotion in plain or dual numbers, as a law sees it.
+/// LocalMotion in plain or dual numbers, as the argument of a law.
 template <typename Number>
 struct Measures
 {
   double        t;
   const Number *u, *v, *a;
   bool          by_history;       ///< as in LocalMotion
-  const double *lambda = nullptr; ///< likewise; held within a tangent
+  const double *lambda = nullptr; ///< as in LocalMotion; constant within a tangent
 };
 
 /**
@@ -33,7 +33,7 @@ struct Measures
  *     void law(const Measures<Number> &measures, const double *history, Number *p) const;
  *
  * with k measures.  Each measure carries one dual direction in which u, v and a move together as (w.u, w.v, w.a): the
- * tangent  w.u dp/du + w.v dp/dv + w.a dp/da  costs k directions, not 3 k; dp/du and dp/dv apart cost 2 k.
+ * tangent  w.u dp/du + w.v dp/dv + w.a dp/da  costs k directions, not 3 k; dp/du and dp/dv separately cost 2 k.
  */
 template <class Law, int k, class... Facets>
 class DifferentiableElement : public ForceLaw, public Facets...
@@ -113,7 +113,7 @@ private:
   }
 };
 
-/// The number in a plain or dual number, for decisions.
+/// Value of a plain or dual number, for decisions.
 inline double value(double x)
 {
   return x;

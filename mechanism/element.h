@@ -51,7 +51,7 @@ public:
   virtual std::vector<Quantity> quantities() const                                                      = 0;
   virtual double                quantity(int i, const LocalMotion &motion, const double *history) const = 0;
 
-  // --- which of the two it is
+  // --- kind of element
   virtual const ForceLaw   *force_law() const { return nullptr; }
   virtual const Constraint *ideal_joint() const { return nullptr; }
 

@@ -25,11 +25,11 @@ public:
   virtual void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                        double *dp) const = 0;
 
-  /// p [k] with dp/du and dp/dv [k x k each, column major] apart, u'' being held.
+  /// p [k] with dp/du and dp/dv [k x k each, column major] separately, at constant u''.
   virtual void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
                            double *dp_dv) const;
 
-  /// Energy [J] stored in the element; the rest of its work is work() .
+  /// Energy [J] stored in the element; the rest of its work is of the kind work().
   virtual double stored_energy(const LocalMotion &, const double *history) const;
   /// Its growth [W] with the motion inside a branch: d stored_energy/du . u'.
   virtual double stored_power(const LocalMotion &, const double *history) const;

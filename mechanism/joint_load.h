@@ -10,19 +10,18 @@ namespace gestell::mechanism
 {
 
 /**
- * Normal force of an ideal joint by its multipliers: the first n_F are forces, the next n_M torques,
+ * Normal force of an ideal joint from its multipliers: the first n_F are forces, the next n_M torques,
  *
  *     N = max(|lambda_F|, 2 |lambda_M|/L).
  *
- * A guide of length L carries torques by two opposite forces at its ends: |F/2 + M/L| + |F/2 - M/L| is
- * that maximum.
+ * A guide of length L transmits torques by two opposite forces at its ends: |F/2 + M/L| + |F/2 - M/L| is this maximum.
  *
  * Source: docs/theory/contact.md (4).
  */
 struct JointLoad
 {
   int    n_forces = 0, n_torques = 0; ///< n_F >= 1, n_M
-  double length = 0.;                 ///< L [m], >= 0; 0: torques make no friction
+  double length = 0.;                 ///< L [m], >= 0; 0: torques cause no friction
 
   void check(const std::string &name) const
   {
@@ -30,7 +29,7 @@ struct JointLoad
     require(n_forces > 0, name, "number of forces", n_forces, "one or more");
   }
 
-  /// N [N]; 0 where multipliers are unknown.
+  /// N [N]; 0 if multipliers are unknown.
   double normal_force(const double *lambda) const
   {
     if (!lambda)

@@ -11,8 +11,8 @@ struct LocalMotion
   const double *v;
   const double *a;
 
-  /// Generalised force p [k] of the element at this motion; null where it is unknown.  The guards of a branch that
-  /// holds() need it.
+  /// Generalised force p [k] of the element at this motion; null if it is unknown.  The guards of a branch with holds()
+  /// need it.
   const double *p = nullptr;
 
   /// Requested branch of the law. true: the branch of the history, smoothly continued beyond its switching points, so
@@ -20,8 +20,8 @@ struct LocalMotion
   /// rounding at a contact. false: the branch of the motion itself.
   bool by_history = false;
 
-  /// Multipliers of an ideal joint [n_constraints()], or of the joint whose friction the element is; null for all
-  /// others and where they are unknown.
+  /// Multipliers of an ideal joint [n_constraints()], or of the joint with the element's friction; null for all others,
+  /// and if they are unknown.
   const double *lambda = nullptr;
 };
 

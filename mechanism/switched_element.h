@@ -44,8 +44,8 @@ public:
   bool            holds(const double *history, double &rate) const override;
 
   const Structure *structure() const override { return structure_ ? this : nullptr; }
-  /// As it begins, likewise closure(), penetration() and play(): structure and start of a run are asked for, no later
-  /// instant.
+  /// In the initial state, like closure(), penetration() and play(): they are requested for the structure and the start
+  /// of a run only.
   void   engaged(const double *u, double *K, double *D) const override;
   void   stiffest(const double *u, double *K, double *D) const override { structure_->stiffest(u, K, D); }
   void   open_branch(const double *u, double *K, double *D) const override;

@@ -239,7 +239,7 @@ Play TransmittedElement::play(const double *u, const double *v, double *G) const
   return play;
 }
 
-// --- events: those of the law, then those of the position function
+// --- events of the law, followed by those of the position function
 
 std::vector<Guard> TransmittedElement::guards(const double *history) const
 {

@@ -10,15 +10,15 @@ namespace gestell::mechanism
 {
 
 /**
- * A law of one or a few measures s that acts through scalars s(u) of the motion: a spring between two points of turning
- * bodies, a cylinder, a wheel under a chassis, the play between cam and follower, a journal in its bearing.
+ * A law of one or a few measures s that acts through scalars s(u) of the motion: a spring between two points of
+ * rotating bodies, a cylinder, a wheel under a chassis, clearance between cam and follower, a journal.
  *
  *     p = G^T P(s, s'),     G = ds/du,     s' = G u',     s'' = G u'' + u'^T s'' u'
  *
- * Further measures of the law are virtual coordinates, passed on unchanged. History, events, energy and quantities are
- * those of the law; kinks of a position function in s are also events. The tangent keeps G constant: its change within
- * a Newton step is of order h^2 P/(m |d|) relative to 1. geometric() is the rest, -dp/du of the G in p and s'. The law
- * must not stick: a sticking measure needs a constant direction.
+ * Further measures of the law are virtual coordinates, which are passed through unchanged. History, events, energy and
+ * quantities are those of the law; kinks of a position function in s are also events. The tangent keeps G constant: its
+ * change within a Newton step is of order h^2 P/(m |d|) relative to 1. geometric() is the remainder, -dp/du due to the
+ * G in p and s'. The law must not stick: a sticking measure needs a constant direction.
  *
  * Source: principle of virtual work; docs/theory/joints.md (5).
  */
@@ -29,11 +29,11 @@ public:
   static constexpr int max_virtual = 3;
 
   /// @param law   of one measure, and virtual coordinates
-  /// @param rest  value of s that the law sees as zero
-  /// @throws std::invalid_argument if the law has more of them than max_virtual
+  /// @param rest  value of s at which the measure of the law is zero
+  /// @throws std::invalid_argument if the law has more virtual coordinates than max_virtual
   TransmittedElement(const CombinedMeasure &measure, std::shared_ptr<const ForceLaw> law, double rest = 0.);
-  /// @param measures  of the motion of the same two bodies, one for each of the law
-  /// @throws std::invalid_argument if their number is not that of the law, or more than max_seen
+  /// @param measures  of the relative motion of the two bodies, one for each measure of the law
+  /// @throws std::invalid_argument if their number differs from that of the law, or exceeds max_seen
   TransmittedElement(const Placement &first, const Placement &second, const std::vector<RelativeMeasure> &measures,
                      std::shared_ptr<const ForceLaw> law);
 
@@ -99,10 +99,10 @@ private:
   int        n_guards_of_law(const double *history) const { return branches_ ? branches_->n_guards(history) : 0; }
   int        n_virtual() const { return law_->n_measures() - n_seen(); }
   Kinematics kinematics_of(const LocalMotion &motion, const double *history) const;
-  /// p = G^T P followed by the P of virtual coordinates and, of a derivative of P by the law's measures, that by u.
+  /// p = G^T P followed by the P of virtual coordinates; for a derivative of P by the law's measures the same by u.
   void spread(const Kinematics &kinematics, const double *P, double *p) const;
   void spread_tangent(const Kinematics &kinematics, const double *dP, double *dp) const;
-  /// K and D of the law by one of the functions of facets.h, on the measures of the motion.
+  /// K and D of the law by one of the functions of facets.h, for the measures of the motion.
   using Matrices = void (*)(const Element &law, const double *u, double *K, double *D);
   void spread_structure(Matrices matrices, const double *u, double *K, double *D) const;
 
@@ -111,7 +111,7 @@ private:
     return motion.by_history ? history + n_of_law_ : nullptr;
   }
 
-  /// The one that may have a position function, whose kinks are events.
+  /// The measure that can have a position function, whose kinks are events.
   const CombinedMeasure &function() const { return measures_.front(); }
 
   std::vector<CombinedMeasure>    measures_;

@@ -17,41 +17,41 @@ namespace gestell::apps
 enum class AnalysisOutcome
 {
   done,
-  interrupted, ///< as warnings say; what is known by then is in the answer
-  failed       ///< it has no answer, as a warning says; the command fails
+  interrupted, ///< with a warning; the answer contains the results so far
+  failed       ///< no answer, with a warning; the command fails
 };
 
-/// One computation of an analysis: its options, and what it makes of them.  Of a run it can be a part, too.
+/// One computation of an analysis, with its options.  It can also be a part of a run.
 class Analysis : public RunPart
 {
 public:
-  /// Bound to its members, which hold the defaults; they are options of the command line and keywords of Python.
+  /// Options bound to members, which hold the defaults; they become command-line options and Python keywords.
   virtual std::vector<CommandOption> options() { return {}; }
-  /// Of another command: by an option of it, or by a table of the scene.
+  /// Whether another command should include it, by an option of the command or a table of the scene.
   virtual bool requested(const Scene &) const { return true; }
-  /// What can be known before anything is computed.
-  /// @throws std::invalid_argument: which option, the value, and what is needed
+  /// Checks everything that needs no computation.
+  /// @throws std::invalid_argument with the option, its value and the requirement
   virtual void                     check(Session &) {}
-  virtual std::vector<std::string> reads() const { return {}; }  ///< files, which no result may replace
+  virtual std::vector<std::string> reads() const { return {}; }  ///< input files, which no result may replace
   virtual std::vector<std::string> writes() const { return {}; } ///< files that write() makes
 
-  /// Adds its answer, and warnings, to a result that has the model and its modes, or the run; nothing where the answer
-  /// was found as a part of the run.
+  /// Adds its answer and warnings to a result that already has the model with modes, or the run; no effect if the
+  /// answer was computed as a part of the run.
   virtual AnalysisOutcome compute(Session &, Result &) const { return AnalysisOutcome::done; }
-  /// Files that only the command makes; returns a line that says so.
+  /// Writes files that only the command makes; returns a line about them.
   virtual std::string write(Session &, OwnFolder &) const { return ""; }
 };
 
-/// An analysis as it is registered, in analyses.cc: a command, an addition to another one, or both.
+/// Registration of an analysis in analyses.cc: as a command, as an addition to another command, or both.
 struct AnalysisEntry
 {
   std::string              name;
-  std::string              does; ///< as the command `gestell NAME`; empty: it is none
+  std::string              does; ///< help text of the command `gestell NAME`; empty: not a command
   std::vector<std::string> examples;
   std::vector<ResultFile>  files;
 
   std::function<std::unique_ptr<Analysis>()>     begin;
-  std::function<std::shared_ptr<const Answer>()> nothing; ///< without values: its members are listed by the reference
+  std::function<std::shared_ptr<const Answer>()> nothing; ///< an answer without values: the reference lists its members
   std::string                                    of{};    ///< command whose result it adds to; empty: none
 
   bool is_command() const { return !does.empty(); }

@@ -9,7 +9,7 @@
 namespace gestell::apps
 {
 
-/// Of a value that has no function of its own.
+/// Default for a value without such a function.
 template <class Value>
 std::string subject_of(const Value &)
 {
@@ -22,8 +22,8 @@ std::vector<NamedArray> arrays_of(const Value &)
 }
 
 /**
- * An answer by functions beside its value: describe_answer(visitor, value), sections_of(result, value), and where there
- * is something to tell subject_of(value), arrays_of(value), see Answer.  For sources alone, as Json is.
+ * An answer defined by functions next to its value: describe_answer(visitor, value), sections_of(result, value), and
+ * optionally subject_of(value), arrays_of(value), see Answer.  Include this header in .cc files only, as Json.
  */
 template <class Value>
 class DescribedAnswer final : public AnswerWith<Value>
@@ -44,7 +44,7 @@ std::shared_ptr<const Answer> as_answer(Value found)
   return std::make_shared<DescribedAnswer<Value>>(std::move(found));
 }
 
-/// The content of a file that an answer makes; "" without one.
+/// The content of a file of an answer; "" without the answer.
 template <class Value, auto content>
 std::string content_of(const Result &result)
 {

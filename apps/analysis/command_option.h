@@ -19,28 +19,28 @@ struct CommandOption
     existing_file
   };
 
-  std::string              name; ///< "--jobs"; "--peers,!--no-peers" of a flag with its opposite; "KEY" without a name
+  std::string              name; ///< "--jobs"; "--peers,!--no-peers" for a flag and its opposite; "KEY": positional
   Value                    value;
   std::string              does;
   Range                    range     = Range::any;
-  std::vector<std::string> choices   = {};    ///< empty: any text
-  std::string              needs     = "";    ///< option without which it has no meaning
-  std::vector<std::string> proposals = {};    ///< words for completion, where others are refused elsewhere or are none
-  double                   most      = 0.;    ///< of a number that memory grows with; 0: any
-  bool                     writes    = false; ///< files: for the command alone, not for Python
+  std::vector<std::string> choices   = {};    ///< empty: any string
+  std::string              needs     = "";    ///< option that is required with this one
+  std::vector<std::string> proposals = {};    ///< words for completion, if this list is not the check of the value
+  double                   most      = 0.;    ///< limit of a number that determines memory; 0: none
+  bool                     writes    = false; ///< makes files: only for the command, not for Python
 
   CommandOption above_zero() const;
   CommandOption at_most(double number) const;
   CommandOption existing_file() const;
   CommandOption one_of(const std::vector<std::string> &names) const;
   CommandOption proposing(const std::vector<std::string> &words) const;
-  CommandOption with(const std::string &option) const; ///< needs it
+  CommandOption with(const std::string &option) const; ///< requires this option
   CommandOption of_files() const;
 
-  /// Its name in Python and in verification cases: "--lead-in" is lead_in.
+  /// Its name in Python and in verification cases: lead_in for "--lead-in".
   std::string key() const;
 
-  /// From texts as they are typed, several of a list; a flag by true, false, True, False, 1, 0 and "".
+  /// Sets the value from strings as typed, several for a list; a flag accepts true, false, True, False, 1, 0 and "".
   /// @throws std::invalid_argument if a number is invalid or out of range, or for an unknown choice
   void set(const std::vector<std::string> &texts) const;
 };

@@ -32,7 +32,7 @@ std::vector<std::pair<std::string, std::string>> orbits(const Result &result)
   return result.periodic ? orbit_files(*result.periodic) : std::vector<std::pair<std::string, std::string>>();
 }
 
-/// Of what is no analysis.
+/// Files that do not belong to an analysis.
 const std::vector<ResultFile> own_files = {
     {"history.csv", "to plot: every signal over time", csv_of<&Result::run, history_csv>},
     {"modes.csv", "natural frequencies, damping, effective masses", csv_of<modes_csv>},

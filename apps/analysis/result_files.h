@@ -8,17 +8,17 @@
 namespace gestell::apps
 {
 
-/// All of them, those of analyses last, in the order of writing; what prepare_folder() removes, and the list of
-/// docs/results.md.
+/// All files of results, those of analyses last, in the order of writing: the files that prepare_folder() removes, and
+/// the list in docs/results.md.
 const std::vector<ResultFile> &result_files();
 
-/// Names that write_results() may write, for OwnFolder::require_free(); of folders "motion/".
+/// Names that write_results() may write, for OwnFolder::require_free(); folders end in "/": "motion/".
 std::vector<std::string> result_names();
 
-/// Whether a name, relative to the folder, is one of the list: of a result, or in a folder of results.
+/// Whether a name, relative to the folder, is in the list or in a folder of results.
 bool is_result(const std::string &name);
 
-/// The rows of that list.
+/// Table rows of that list.
 std::string result_files_table();
 
 } // namespace gestell::apps

@@ -23,7 +23,7 @@ namespace
                               "; name a folder that can be written with -o DIR.");
 }
 
-/// Not a file in the place of a folder.
+/// Rejects a file in place of a folder.
 void require_folder(const fs::path &folder)
 {
   std::error_code error;
@@ -40,7 +40,7 @@ void require_folder(const fs::path &folder)
                      failure.message() + ")");
 }
 
-/// A study's report would be replaced by that of a run.
+/// The report of a run would replace that of a study.
 void require_no_study(const fs::path &folder)
 {
   if (OwnFolder(folder).owns("study.json"))
@@ -55,7 +55,7 @@ bool is_full(const std::error_code &error)
          error == std::error_code(EDQUOT, std::generic_category());
 }
 
-/// Files that one function each makes, where the result has something for them.
+/// Writes files of one function each, if the result has data for them.
 template <typename Write>
 void write_tables(const Write &write, const Result &result)
 {
@@ -107,10 +107,9 @@ std::string incomplete_words(const fs::path &folder)
 void require_writable(const fs::path &folder)
 {
   require_folder(folder);
-  // What is missing is made when there is something to put into it: others may be at the same place, and take away what
-  // they made there.
+  // Missing folders are created together with their contents: other processes may create and remove the same folders.
   std::error_code failure;
-  // while others make and remove the place; each look succeeds unless another acts in the same moment
+  // while other processes create and remove the folder; each attempt succeeds if no other process interferes
   constexpr int most_looks = 1000;
   for (int tries = 0; tries < most_looks; ++tries)
     if (failure = probe(folder); failure != std::errc::no_such_file_or_directory)

@@ -72,7 +72,7 @@ std::string atlas_markdown(const std::vector<AtlasEntry> &entries, const std::st
     std::vector<std::vector<std::string>> rows{{"where", "predicted", "measured", "difference"}};
     for (const AtlasComparison &c : entry.comparisons)
     {
-      // Differences at the level of rounding change with the machine; only their size is told.
+      // Differences at the level of rounding vary between computers; only a bound is printed.
       const double apart = std::abs(c.measured - c.predicted);
       rows.push_back({c.what, short_text(c.predicted, 8), short_text(c.measured, 8),
                       apart < 1e-9 ? "< 1e-9" : short_text(apart, 1)});

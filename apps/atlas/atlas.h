@@ -8,15 +8,15 @@
 namespace gestell::apps
 {
 
-/// One number, foretold and then measured on the integrators themselves.
+/// One number, predicted and then measured with the integrators themselves.
 struct AtlasComparison
 {
   std::string what;
   double      predicted, measured;
-  double      tolerance; ///< absolute; why it is that large stands where it is made
+  double      tolerance; ///< absolute; explained at its definition
 };
 
-/// A place where a method fails.
+/// A case in which a method fails.
 struct AtlasEntry
 {
   std::string                           id; ///< of its heading and its figures
@@ -27,7 +27,7 @@ struct AtlasEntry
   std::vector<NamedSvg>                 figures;
 };
 
-// Each makes its system, runs the integrators on it and tells what came out.
+// Each function builds its system, runs the integrators on it and describes the results.
 AtlasEntry bdf3_on_a_frame();
 AtlasEntry bdf_of_high_order();
 AtlasEntry wilson_below_its_limit();
@@ -41,10 +41,10 @@ AtlasEntry drift_of_joints();
 AtlasEntry first_multiplier_of_a_joint();
 AtlasEntry chatter();
 
-/// All of them, in the order of the document.
+/// All entries, in the order of the document.
 std::vector<AtlasEntry> failure_atlas();
 
-/// The document; figures are looked for in `figures`, a folder beside it.
+/// The document; it links figures in the folder `figures` next to it.
 std::string atlas_markdown(const std::vector<AtlasEntry> &entries, const std::string &figures);
 
 } // namespace gestell::apps

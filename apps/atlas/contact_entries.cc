@@ -1,4 +1,4 @@
-// What contacts do to methods that are sound for linear systems.
+// Effect of contacts on methods that are accurate for linear systems.
 
 #include "apps/atlas/atlas.h"
 #include "apps/output/charts/chart.h"
@@ -200,7 +200,7 @@ double slope(const std::vector<double> &step, const std::vector<double> &error)
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
-/// Where and what a method is compared with.
+/// Instants at which a method is compared, and the exact states there.
 struct PlayTrial
 {
   std::vector<double>          ends{0.4, 0.55, 0.7, 0.8, 0.95, 1.05, 1.2, 1.35, 1.5};
@@ -271,8 +271,8 @@ AtlasEntry order_at_play()
       chart.panels[0].curves.push_back({cases[m].name + (locate ? ", events" : ""), h, error, static_cast<int>(m),
                                         locate ? LineStyle::full : LineStyle::dashed});
       const double order = seen_slope(h, error);
-      // Without events the constant jumps with the place of the contact in its step: half an order over a factor of 16.
-      // With them what remains is the approach to the asymptotic range, longer for order 6.
+      // Without events the error constant jumps with the position of the contact within its step: by half an order over
+      // a factor of 16. With events only the approach to the asymptotic range remains, which is longer for order 6.
       entry.comparisons.push_back({cases[m].name + (locate ? ", order with events" : ", order without events"),
                                    double(locate ? p : std::min(p, 2)), order, locate ? (p == 6 ? 0.7 : 0.35) : 0.6});
       row.push_back(short_text(order, 3));
@@ -343,7 +343,7 @@ AtlasEntry chatter()
         ++i;
       most = std::max(most, j - i);
     }
-    // Within one step's length at most: the end of one count of 20 events, the step that goes over, 20 of the next.
+    // Within one step's length at most: one event of a count of 20, the step past the limit, 20 of the next.
     entry.comparisons.push_back(
         {std::to_string(n) + " masses, at most 42 parts of a step (1: yes)", 1., most <= 42 ? 1. : 0., 0.});
     entry.table.push_back({std::to_string(n), short_text(double(motion.driver().events().size()) / n_steps),

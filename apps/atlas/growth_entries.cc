@@ -1,4 +1,4 @@
-// Methods that make an undamped or lightly damped linear mode grow.
+// Methods for which an undamped or lightly damped linear mode grows.
 
 #include "apps/atlas/atlas.h"
 #include "apps/atlas/trials.h"
@@ -22,8 +22,8 @@ using coupling::options_of;
 using coupling::Spring;
 using coupling::TestOscillator;
 
-// What the integrators compute differs from the formulas by rounding only, 1e-16 of the state in every step, seen over
-// some hundred steps; other roots have died out by then (0.99^1000 of them is left at most).
+// The results of the integrators differ from the formulas only by rounding, 1e-16 of the state in every step, over some
+// hundred steps; the other roots have decayed by then (to 0.99^1000 at most).
 constexpr double rounding = 1e-7;
 
 MethodOptions bdf_options(int order)
@@ -46,7 +46,7 @@ MethodOptions exact(ForceRule force, int order)
   return options_of("exact", order).with("force", force_rule_name(force));
 }
 
-/// The method at omega h on a unit oscillator: what the roots say, and what its steps do.
+/// The method at omega h on a unit oscillator: spectral radius from the roots, and growth of the steps.
 AtlasComparison compare(const std::string &name, MethodOptions options, const TestOscillator &o)
 {
   options.step           = 1.;
@@ -251,7 +251,7 @@ AtlasEntry wilson_overshoot()
     const double predicted =
         coupling::overshoot(options, {0., omega_h}, coupling::OscillatorStart::displaced).displacement;
     const double measured = step_through(machine, options, 20).cwiseAbs().maxCoeff();
-    // Rounding alone, amplified by the ratio of h^2 a to x, (omega h)^2, in the first step.
+    // Only rounding, amplified by the ratio of h^2 a to x, (omega h)^2, in the first step.
     entry.comparisons.push_back(
         {"Wilson 1.4 at omega h = " + short_text(omega_h), predicted, measured, 1e-9 * std::max(1., predicted)});
     entry.table.push_back({short_text(omega_h), short_text(predicted, 7), short_text(measured, 7)});

@@ -16,7 +16,7 @@ namespace
 
 constexpr double omega_base = 50., step = 1e-3; ///< rad/s, s: omega h = 0.05, so that the steps' own error is small
 
-/// 1 kg on a spring of the base system, held besides by an element of stiffness c.
+/// 1 kg on a spring of the base system and on an element of stiffness c.
 coupling::Machine held_mass(double c)
 {
   coupling::MachineModel  model;
@@ -90,7 +90,7 @@ AtlasEntry fixed_point_of_forces()
     for (int k = 0; k < 100; ++k)
       newton->advance();
     const double iterations = double(newton->work().newton) / double(newton->work().steps);
-    // Linear: the ratio is exact but for the rounding of u + correction.
+    // Linear: the ratio is exact up to the rounding of u + correction.
     entry.comparisons.push_back(
         {"contraction at c = " + short_text(c) + " N/m", predicted, measured, 1e-6 * predicted});
     entry.table.push_back(

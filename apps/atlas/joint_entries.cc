@@ -1,4 +1,4 @@
-// Ideal joints: held by their accelerations they drift open, and of index 3 the first multiplier is half of itself.
+// Ideal joints: with constraints on accelerations they drift apart; with index 3 the first multiplier is halved.
 
 #include "apps/atlas/atlas.h"
 #include "coupling/integration/integration_methods.h"
@@ -38,7 +38,7 @@ coupling::Machine revolving_mass()
   return machine;
 }
 
-/// The motion as the distance from the origin tells it.
+/// The distance from the origin, the variable of the motion.
 double distance(const VectorXd &q)
 {
   return std::hypot(length + q[0], q[1], q[2]);
@@ -154,7 +154,7 @@ AtlasEntry drift_of_joints()
                  predicted = std::pow(std::abs(method.root({0., omega * h})), 10 * parts),
                  measured = stretched_by(method, h, 10 * parts), held = stretched_by_bdf(h, 10 * parts);
     const std::string where = method.name + ", " + std::to_string(parts) + " steps a turn";
-    // Exact: what is left is rounding of as many steps.
+    // Exact up to the rounding of these steps.
     entry.comparisons.push_back({where, predicted, measured, 1e-9 * predicted});
     entry.comparisons.push_back({"BDF 2, " + std::to_string(parts) + " steps a turn", 1., held, 1e-11});
     entry.table.push_back({method.name, short_text(1e3 * h, 3) + " ms", short_text(predicted, 8),
@@ -181,7 +181,7 @@ AtlasEntry first_multiplier_of_a_joint()
       {}};
   for (const double h : {1e-2, 1e-3, 1e-4})
   {
-    // x_1 = (1, omega h)/sqrt(1 + (omega h)^2): what the bar takes back of the way along the tangent.
+    // x_1 = (1, omega h)/sqrt(1 + (omega h)^2): the bar reverses part of the displacement along the tangent.
     const double y = omega * h, predicted = (std::sqrt(1. + y * y) - 1.) / (y * y), measured = first_multiplier(h);
     entry.comparisons.push_back({"h = " + short_text(1e3 * h) + " ms", predicted, measured, 1e-6});
     entry.table.push_back({short_text(1e3 * h) + " ms", short_text(predicted, 6), short_text(measured, 6)});

@@ -8,8 +8,8 @@
 namespace gestell::apps
 {
 
-/// Modes of a scene under its own method and under all others, at its step: modes, verdicts and notes of the study.
-/// @param step  [s] to look at; 0: run.step
+/// Checks a scene's own method and all others at its step: modes, verdicts and notes of the study.
+/// @param step  [s] step to check; 0: run.step
 /// @throws std::invalid_argument if there is none
 void lay_methods_over(const Scene &scene, PreparedMachine &prepared, double step,
                       const std::vector<MethodFamily> &families, StabilityStudy &study);

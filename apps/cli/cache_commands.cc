@@ -24,7 +24,7 @@ namespace gestell::apps
 namespace
 {
 
-/// As std::printf prints it.
+/// Formats as std::printf does.
 template <typename... Parts>
 std::string formatted(const char *format, const Parts &...parts)
 {
@@ -93,7 +93,7 @@ bool begins(const std::string &text, const std::string &part)
   return text.compare(0, part.size(), part) == 0;
 }
 
-/// "interface.2.coupling": a choice that a recipe holds as a number is shown by its name in scenes; others as they are.
+/// "interface.2.coupling": a choice stored as a number in a recipe is shown by its name in scenes.
 std::string choice_text(const std::string &name, const std::string &value)
 {
   struct Choice
@@ -162,7 +162,7 @@ CacheExplanation explained(const std::string &scene, const std::string &key, con
   return found;
 }
 
-/// In what the recipes of these frames differ, by the names of ingredients in the order of the first.
+/// Ingredients in which the recipes of these frames differ, by name, in the order of the first frame.
 std::vector<std::string> distinguishing(const std::vector<const CacheEntry *> &entries)
 {
   std::vector<std::string> names;
@@ -173,7 +173,7 @@ std::vector<std::string> distinguishing(const std::vector<const CacheEntry *> &e
   return names;
 }
 
-/// "mesh.size 0.015, reduction.modes 13": what tells a frame from the others that are made from the same.
+/// "mesh.size 0.015, reduction.modes 13": the differences between frames with the same source.
 std::string particulars(const CacheEntry &entry, const std::vector<CacheEntry> &entries)
 {
   std::vector<const CacheEntry *> alike;

@@ -7,25 +7,25 @@
 namespace gestell::apps
 {
 
-/// `gestell reduce`: a scene's frame, or the cache of frames.
+/// Options of `gestell reduce` for a scene's frame or the cache of frames.
 struct ReduceCommandOptions
 {
   bool        list = false, explain = false, prune = false;
-  bool        partition = false;       ///< why every coordinate of q1 is kept
+  bool        partition = false;       ///< reasons why every coordinate of q1 is retained
   bool        all       = false;       ///< prune every frame
-  bool        check     = false;       ///< list and prune read every file whole
+  bool        check     = false;       ///< list and prune read every file completely
   std::string older_than, larger_than; ///< prune frames not used for "30 d", frames above "100 MB"
   std::string export_format;           ///< "matrix-market" or "petsc"; empty: none
 };
 
-/// Prints what the cache of reduced frames holds; files are read whole if options.check asks for it.
+/// Prints the contents of the cache of reduced frames; files are read completely if options.check is set.
 void list_cache(const ReduceCommandOptions &options);
 
-/// Prints whether the cache holds the scene's frame; if not, by what the nearest one differs.
+/// Prints whether the cache contains the scene's frame; if not, how the most similar one differs.
 void explain_cache(const Scene &scene);
 
-/// Removes frames that cannot be used and those that the options name; prints what went.
-/// @throws std::invalid_argument if the options cannot be understood.
+/// Removes unusable frames and those that the options select; prints the removed frames.
+/// @throws std::invalid_argument if the options are invalid.
 void prune_cache(const ReduceCommandOptions &options);
 
 } // namespace gestell::apps

@@ -24,7 +24,7 @@ namespace gestell::apps
 namespace
 {
 
-/// What the frame's file holds, for people.
+/// Contents of the frame's file, for people.
 struct Geometry
 {
   std::string text;

@@ -19,18 +19,18 @@ enum ExitCode
   exit_interrupted = 130
 };
 
-/// What every command with an input takes.
+/// Options of every command with an input.
 struct CommonOptions
 {
   std::string              input;  ///< scene, or CAD file of `gestell mesh`
   std::string              folder; ///< -o; empty: results/<scene name>
   std::vector<std::string> overrides;
-  int                      jobs    = 1; ///< threads; of a study processes
+  int                      jobs    = 1; ///< number of threads; for a study of processes
   bool                     quiet   = false;
-  fem::Scripts             scripts = fem::Scripts::harmless; ///< of gmsh, that scenes name
+  fem::Scripts             scripts = fem::Scripts::harmless; ///< for gmsh scripts that scenes name
 };
 
-/// What the command is about.
+/// Type of the input of a command.
 enum class CommandInput
 {
   none,
@@ -46,7 +46,7 @@ struct Command
   std::string                               name, does;
   std::vector<std::string>                  examples;
   CommandInput                              input = CommandInput::scene;
-  std::vector<CommandOption>                options; ///< beside the common ones; their values belong to `run`
+  std::vector<CommandOption>                options; ///< in addition to the common ones; `run` owns their values
   std::function<int(const CommonOptions &)> run;     ///< @return an ExitCode
 };
 

@@ -45,7 +45,7 @@ Json values_of(const std::vector<Named> &names, const Eigen::VectorXd &values)
   return json;
 }
 
-/// Of a variable that takes words the word.
+/// The word, for a variable with words as levels.
 Json level_of(const StudyVariable &variable, double level)
 {
   if (variable.words.empty())

@@ -14,17 +14,17 @@
 namespace gestell::apps
 {
 
-/// Whether the cache holds the frame of a scene, and what the nearest one of other origin differs in.
+/// Whether the cache contains the frame of a scene, and how the most similar one differs.
 struct CacheExplanation
 {
   std::string                         scene, key;
-  std::optional<coupling::CacheEntry> own{};    ///< file of this key
-  std::string                         defect{}; ///< why it cannot be used; "": it can, if it is there
+  std::optional<coupling::CacheEntry> own{};    ///< cached file with this key
+  std::string                         defect{}; ///< why it cannot be used; "": it can, if it exists
   std::optional<coupling::CacheEntry> nearest{};
-  std::vector<coupling::Difference>   differences{}; ///< kept, asked
+  std::vector<coupling::Difference>   differences{}; ///< cached and requested values
 };
 
-/// Answers of commands as JSON text, for answer_with(); lengths, areas and all else in SI units, docs/json.md.
+/// Answers of commands as JSON text for answer_with(), all in SI units, docs/json.md.
 
 std::string cache_answer(const std::vector<coupling::CacheEntry> &entries);
 std::string explanation_answer(const CacheExplanation &explanation);
@@ -32,7 +32,7 @@ std::string frame_answer(const FrameAnswer &answer);
 std::string partition_answer(const Partition &partition);
 std::string mesh_answer(const coupling::MeshReport &report);
 std::string stability_answer(const StabilityStudy &study);
-/// @param findings  null: runs are missing, or none ended well
+/// @param findings  null: runs are missing, or all failed
 std::string study_answer(const StudyAnswer &answer, const StudyFindings *findings);
 
 } // namespace gestell::apps

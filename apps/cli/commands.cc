@@ -19,8 +19,8 @@ namespace gestell::apps
 namespace
 {
 
-/// A run that stands in the folder is kept: only what the analysis adds is written.
-/// @return what is said of it
+/// A run in the folder is kept: only the addition of the analysis is written.
+/// @return a message about it
 std::string write_answer_of(const AnalysisEntry &entry, const Result &result, const std::filesystem::path &folder,
                             const std::vector<std::filesystem::path> &inputs)
 {
@@ -77,7 +77,7 @@ int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const Commo
   return exit_code_of(outcome);
 }
 
-/// The command of an analysis: checks, holds the folder of results, computes, writes, prints what it found, warns.
+/// The command of an analysis: checks, locks the folder of results, computes, writes, prints the results and warnings.
 Command analysis_command(const AnalysisEntry &entry)
 {
   const std::shared_ptr<Analysis> analysis = entry.begin();

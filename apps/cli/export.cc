@@ -59,7 +59,7 @@ std::string unit_definitions(const FmuInterface &variables)
   return text + "  </UnitDefinitions>\n";
 }
 
-/// The variables of one causality, which `words` tells with variability and initial.
+/// The variables of one causality; `words` are its attributes including variability and initial.
 std::string scalar_variables(const std::vector<FmuVariable> &variables, std::size_t first, const std::string &words,
                              bool starts)
 {
@@ -170,7 +170,7 @@ void print_variables(const std::string &kind, const std::vector<FmuVariable> &va
   std::cout << (variables.size() > most ? " ...\n" : "\n");
 }
 
-/// Where the FMU is to be written.
+/// Path of the FMU.
 std::filesystem::path place_of_fmu(const CommonOptions &options, const ExportOptions &requested, const Scene &scene)
 {
   if (!requested.fmu.empty() && !options.folder.empty())

@@ -87,7 +87,7 @@ long first_scalar_point(const coupling::ReducedFrame &frame)
   return first + 1;
 }
 
-/// What every row is on the cards of Nastran.
+/// Label of every row on the Nastran cards.
 Labels labels_of(const coupling::ReducedFrame &frame)
 {
   Labels labels(std::size_t(frame.M.rows()));

@@ -12,7 +12,7 @@ enum class MatrixFormat
 {
   matrix_market, ///< .mtx
   petsc,         ///< PETSc's binary format, .petsc
-  dmig           ///< mass, damping and stiffness on cards of Nastran, frame.pch, with the nodes of the interfaces
+  dmig           ///< mass, damping and stiffness as Nastran DMIG cards, frame.pch, with the interface nodes
 };
 
 /// "matrix-market", "petsc" or "dmig".  @throws std::invalid_argument for others.
@@ -24,17 +24,17 @@ std::vector<std::string> exported_names(MatrixFormat format);
 /**
  * Writes a reduced frame for other programs: mass, damping, stiffness and translations as matrices, nodes.csv with
  * interfaces and skin, triangles.csv, node_displacements (rows of the nodes times q), and frame.toml, the [frame] of a
- * scene that takes all this back as a frame given by matrices.  Rows are the interface coordinates, then modes.
+ * scene that reads these files as a frame given by matrices.  Rows are the interface coordinates, then modes.
  *
- * `translations` are M^-1 f with f the load of a unit acceleration: in the coordinates of the reduced frame the best a
- * unit translation of the whole frame can be told by, and gravity is the same.
+ * `translations` are M^-1 f, where f is the load of a unit acceleration: the best approximation of a unit translation
+ * of the whole frame in the coordinates of the reduced frame, with unchanged gravity load.
  *
- * On cards of Nastran interfaces are grid points 1, 2, ... with motions along the axes, all other coordinates scalar
- * points from 1001 on (or the next power of ten); rows are in this order, and numbers have ten digits.
+ * In Nastran cards interfaces are grid points 1, 2, ... with DOFs along the axes; all other coordinates are scalar
+ * points starting at 1001 (or the next power of ten plus one).  Rows are in this order, and numbers have ten digits.
  *
- * @param remark  of the scene the frame is from, for people.
+ * @param remark  about the scene of the frame, for people.
  * @return the files written.
- * @throws coupling::WriteFailure if one cannot be written, as OwnFolder::claim() besides.
+ * @throws coupling::WriteFailure if one cannot be written; also the exceptions of OwnFolder::claim().
  */
 std::vector<std::string> export_frame(const std::string &folder, const coupling::ReducedFrame &frame,
                                       MatrixFormat format, const std::string &remark);

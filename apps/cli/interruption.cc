@@ -20,7 +20,7 @@ namespace gestell::apps
 
 namespace
 {
-/// What an interruption does now.
+/// Present effect of an interruption.
 enum class Interruption
 {
   saves,             ///< what was computed
@@ -123,7 +123,7 @@ const std::atomic<bool> &interruption()
     effect.compare_exchange_strong(before, Interruption::saves);
     std::signal(SIGINT, note_interruption);
     std::signal(SIGTERM, note_interruption);
-    if (!is_handled(SIGHUP, SIG_IGN)) // as nohup asks
+    if (!is_handled(SIGHUP, SIG_IGN)) // as set by nohup
       std::signal(SIGHUP, note_interruption);
     return true;
   }();
@@ -138,7 +138,7 @@ void note_what_is_left()
 
 coupling::Progress nothing_to_save_before(const std::string &phase, const coupling::Progress &progress)
 {
-  const bool plain = !answers_in_json(); // of which there is a document in any case
+  const bool plain = !answers_in_json(); // the document is written in any case
   note_what_is_left();
   effect = plain ? Interruption::ends_at_once : Interruption::saves;
   return [phase, progress, plain, before = true](const std::string &now, double share) mutable

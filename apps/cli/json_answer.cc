@@ -35,7 +35,7 @@ std::string judged_part(const std::string &message)
   return message.size() <= 2 * end ? message : message.substr(0, end) + " ... " + message.substr(message.size() - end);
 }
 
-/// "scene.toml:12: body.crank.mass: needs a mass above zero, got 0; give ..." in its parts, as far as they are there.
+/// Splits "scene.toml:12: body.crank.mass: needs a mass above zero, got 0; give ..." into its parts, if they exist.
 Json parts_of_error(const std::string &message, int exit_code)
 {
   static const std::regex place(R"(^(?:--[^ ]+ [^:]*: )?([^:\n]+):([0-9]+): )"),

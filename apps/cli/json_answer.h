@@ -9,24 +9,23 @@ namespace gestell::apps
 {
 
 /**
- * One JSON document on standard output in place of what a command prints, with `--json` (docs/json.md).
+ * With `--json`: one JSON document on standard output instead of the printed text (docs/json.md).
  *
- * While it lives, what is written to std::cout is kept, and warnings that pass std::cerr are noted.  A command that
- * has its answer as a value gives it to answer_with(); lines of text are in the document in any case, so that no
- * command needs more.
+ * During its lifetime output to std::cout is captured, and warnings to std::cerr are recorded.  A command with a
+ * structured answer passes it to answer_with(); the captured text is always in the document, so that this is optional.
  */
 class JsonAnswer
 {
 public:
-  explicit JsonAnswer(bool wanted); ///< false: nothing is changed
+  explicit JsonAnswer(bool wanted); ///< false: no effect
   ~JsonAnswer();
   JsonAnswer(const JsonAnswer &)            = delete;
   JsonAnswer &operator=(const JsonAnswer &) = delete;
 
   bool wanted() const { return wanted_; }
-  /// Why there is no answer, as printed in the terminal.
+  /// Reason why there is no answer, as printed in the terminal.
   void failed(const std::string &message) { failure_ = message; }
-  /// Writes the document, and nothing more.
+  /// Writes only the document.
   void finish(const std::string &command, int exit_code);
 
 private:
@@ -39,10 +38,10 @@ private:
   std::string               failure_;
 };
 
-/// What a command answers, as JSON text, made only on request; the last one is used.
+/// Answer of a command as JSON text, computed only on request; the last one is used.
 bool answers_in_json();
 void answer_with(const std::string &json);
-/// Why an answer ends early, as printed in the terminal.
+/// Reason for an early end of an answer, as printed in the terminal.
 void error_in_json(const std::string &message);
 
 } // namespace gestell::apps

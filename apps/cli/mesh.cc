@@ -41,7 +41,7 @@ struct MeshCommandOptions
   std::string overlaps  = "refused";    ///< or "once"
   std::string plates    = "tetrahedra"; ///< or "swept"
   int         bodies    = 1;            ///< expected
-  bool        selectors = false;        ///< surfaces as entries of a scene
+  bool        selectors = false;        ///< surfaces as scene keys
   std::string folder;                   ///< for the page of the faces; empty: none
 };
 
@@ -75,7 +75,7 @@ double length_option(const std::string &option, const std::string &text)
 
 constexpr double steel = 7850.; ///< [kg/m^3] of structures; what is not steel is given in the scene
 
-/// "in steel", or of which density.
+/// "in steel", or with its density.
 std::string weighed(double density)
 {
   std::ostringstream text;
@@ -162,7 +162,7 @@ void print_surfaces(const coupling::MeshReport &report)
   }
 }
 
-/// As they can be put into a scene.
+/// Prints selectors in a form that can be pasted into a scene.
 void print_selectors(const coupling::MeshReport &report)
 {
   for (const coupling::SurfaceReport &surface : report.surfaces)

@@ -80,7 +80,7 @@ void print_energies(const Result &result)
               << kinetic_text(*result.energy_shares, j) << '\n';
 }
 
-/// Whether nothing but the frame moves: its modes are those of the machine.
+/// Whether only the frame moves: its modes are those of the machine.
 bool same_modes(const std::vector<coupling::Mode> &one, const std::vector<coupling::Mode> &other)
 {
   return std::equal(one.begin(), one.end(), other.begin(), other.end(),

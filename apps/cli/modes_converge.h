@@ -11,9 +11,9 @@ namespace gestell::apps
 /// `gestell modes SCENE --converge TOLERANCE`.
 struct ConvergeOptions
 {
-  double      converge        = 0.;      ///< relative error the mesh may leave; 0: the scene's mesh as it is
-  int         frequencies     = 4;       ///< lowest elastic ones of the frame that `converge` watches
-  std::string watch           = "all";   ///< or "frequencies": compliances of interfaces are left out
+  double      converge        = 0.;      ///< allowed relative mesh error; 0: the scene's mesh is used unchanged
+  int         frequencies     = 4;       ///< number of lowest elastic frequencies of the frame that `converge` checks
+  std::string watch           = "all";   ///< or "frequencies": compliances of interfaces are not checked
   int         max_coordinates = 1000000; ///< of the finest mesh
 };
 
@@ -25,7 +25,7 @@ coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptio
 /// Prints meshes, limits, errors and whether they are within the tolerance.
 void print_convergence(const coupling::MeshConvergence &convergence, double tolerance);
 
-/// What the answer must not be taken without: the error of the mesh, and why it is larger than asked for.
+/// Warnings that belong to the answer: the error of the mesh, and why it is larger than requested.
 std::vector<std::string> convergence_warnings(const coupling::MeshConvergence &convergence, double tolerance);
 
 /// mesh_convergence.csv: one row per mesh, then `limit`, `uncertainty`, `error` and `order` of each quantity.

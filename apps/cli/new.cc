@@ -34,7 +34,7 @@ void list_kinds()
     std::cout << any.kind << std::string(15 - any.kind.size(), ' ') << headline(any) << '\n';
 }
 
-/// Name of the scene that a file holds.
+/// Name of the scene in a file.
 std::string name_of(const std::filesystem::path &file)
 {
   if (file.extension() != ".toml" || file.stem().empty())
@@ -73,7 +73,7 @@ int make_new(const NewOptions &options)
   catch (const coupling::WriteFailure &failure)
   {
     std::error_code none;
-    std::filesystem::remove(frame, none); // was free: what stands there is ours
+    std::filesystem::remove(frame, none); // the path was free: the file is ours
     throw std::invalid_argument(std::string(failure.what()) +
                                 "; give a file where there is room and leave to write: gestell new " + chosen.kind +
                                 " FOLDER/" + scene.filename().string());

@@ -104,7 +104,7 @@ std::string names_of_methods()
   return names;
 }
 
-/// The request as it is typed; options of single methods have no value where they are not given.
+/// The request as typed; options of single methods have no value if they are not given.
 struct TypedRequest
 {
   static constexpr int not_given = std::numeric_limits<int>::min();

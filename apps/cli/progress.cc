@@ -50,7 +50,7 @@ void ProgressLine::show(const std::string &phase, double share)
   std::fflush(stderr);
 }
 
-/// "  12 s, about 3 min left": at the pace of the phase so far; too early, or without a share, nothing is foretold.
+/// "  12 s, about 3 min left": at the present rate of the phase; no estimate if it is too early, or without a share.
 std::string ProgressLine::times(double share) const
 {
   const double     passed    = std::chrono::duration<double>(Clock::now() - begin_).count();
@@ -59,7 +59,7 @@ std::string ProgressLine::times(double share) const
     return "";
   const std::string text        = "  " + duration_text(passed);
   const double      gone        = share - first_share_;
-  constexpr double  least_share = 0.01; // of a phase: less tells nothing of its pace
+  constexpr double  least_share = 0.01; // of a phase: less does not show its rate
   return gone < least_share ? text : text + ", about " + duration_text(passed * (1. - share) / gone) + " left";
 }
 

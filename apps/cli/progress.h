@@ -8,12 +8,12 @@
 namespace gestell::apps
 {
 
-/// "42 s", "3 min", "2 h": as exact as an estimate is.
+/// "42 s", "3 min", "2 h": with the precision of an estimate.
 std::string duration_text(double seconds);
 
-/// Tells on standard error what is being done, one line that is drawn anew; silent if that is no terminal or `quiet`.
-/// Behind two seconds of a phase it tells how long it took and, where a share of it is done, how long the rest of it
-/// takes at that pace.
+/// Shows the current phase on standard error in one line that is updated; silent if that is not a terminal, or with
+/// `quiet`.  After two seconds of a phase the line shows the time elapsed and, if the completed share is known, the
+/// estimated time that remains.
 class ProgressLine
 {
 public:
@@ -21,12 +21,12 @@ public:
   ~ProgressLine();
   ProgressLine(const ProgressLine &) = delete;
 
-  /// A phase begins or goes on; share 0..1 of it is done, negative: unknown.
+  /// A phase begins or continues; `share` is the completed part from 0 to 1, negative: unknown.
   void show(const std::string &phase, double share = -1.);
   /// Clears the line.
   void done();
 
-  /// show(), for what computes; this must outlive it.
+  /// show() as a callback for computations; this object must outlive it.
   coupling::Progress callback();
 
 private:
@@ -37,7 +37,7 @@ private:
   bool              drawn_;
   std::string       phase_;
   Clock::time_point last_drawn_, begin_; ///< of the phase
-  double            first_share_ = 0.;   ///< that was done when it was heard of first
+  double            first_share_ = 0.;   ///< completed share at the first call in the phase
 };
 
 } // namespace gestell::apps

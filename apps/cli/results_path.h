@@ -13,18 +13,18 @@
 namespace gestell::apps
 {
 
-/// Folder for results: -o, or else results/<scene name>.
+/// Folder for results: -o, or by default results/<scene name>.
 inline std::filesystem::path results_path(const CommonOptions &options, const Scene &scene)
 {
   return options.folder.empty() ? std::filesystem::path("results") / scene.name : std::filesystem::path(options.folder);
 }
 
-/// A folder for results that can be written and is held, from before anything is computed until they are there; says
-/// where it cannot be held.
+/// Checks that a folder for results is writable and locks it, from before the computation until the results are
+/// written; prints a note if it cannot be locked.
 class ResultsLock
 {
 public:
-  /// @throws std::invalid_argument as require_writable() and FolderLock
+  /// @throws std::invalid_argument as require_writable() and FolderLock do
   explicit ResultsLock(const std::filesystem::path &folder) : lock_((require_writable(folder), folder))
   {
     end_where_nothing_is_saved();
@@ -36,7 +36,7 @@ private:
   FolderLock lock_;
 };
 
-/// Files that the command reads, which no result may replace: those of its scene, and others of its options.
+/// Input files of the command, which no result may replace: those of its scene, and others of its options.
 inline std::vector<std::filesystem::path> inputs_of(const CommonOptions            &options,
                                                     const std::vector<std::string> &others = {})
 {

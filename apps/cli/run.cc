@@ -47,14 +47,14 @@ void print_answer(const coupling::RunResult &run)
             << std::setprecision(3) << double(run.work.newton) / std::max(1L, run.work.steps)
             << " Newton iterations a step, " << run.work.factorisations << " factorisations, " << run.wall_s << " s\n";
   const coupling::EnergySummary &energy = run.energy;
-  if (energy.exchanged > 0. || energy.residual > 0.) // else the balance was not kept
+  if (energy.exchanged > 0. || energy.residual > 0.) // otherwise the balance was not computed
     std::cout << "energy residual " << energy.residual << " J of " << energy.exchanged << " J exchanged, "
               << energy.input << " J supplied\n";
 }
 
 const char *const checkpoint_name = "checkpoint.bin";
 
-/// A checkpoint that the run goes on from is ours wherever it came from: it was read as that of this run.
+/// A checkpoint from which the run resumes is ours, whatever its origin: it was read as that of this run.
 void claim_checkpoint(const std::filesystem::path &folder, bool resumed)
 {
   OwnFolder own(folder);
@@ -85,7 +85,7 @@ void keep_checkpoints(const CheckpointRequest &requested, const std::filesystem:
                                 "two");
 }
 
-/// The command that goes on, as it is typed.
+/// The command that resumes, as typed.
 std::string resuming(const CommonOptions &options, const std::filesystem::path &folder)
 {
   std::string command = "gestell run " + fem::typed_word(options.input);
@@ -96,8 +96,8 @@ std::string resuming(const CommonOptions &options, const std::filesystem::path &
   return command + " --resume -o " + fem::typed_word(folder.string());
 }
 
-/// Of an interrupted run a failure tells, too, whether it can go on.
-/// @param resuming  the command; "" for a run that keeps no checkpoints
+/// For an interrupted run the failure also shows whether it can be resumed.
+/// @param resuming  the command; "" for a run without checkpoints
 void write_answer(const std::filesystem::path &folder, const Result &result, const std::string &resuming)
 {
   try

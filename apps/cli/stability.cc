@@ -30,7 +30,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Only an atlas is replaced, with the figures beside it.
+/// Only an atlas and its figures are replaced.
 void require_atlas(const std::filesystem::path &file, const std::filesystem::path &figures)
 {
   std::ifstream in(file);
@@ -43,7 +43,7 @@ void require_atlas(const std::filesystem::path &file, const std::filesystem::pat
         " is there already and is no failure atlas, so that it is not replaced; give another name");
 }
 
-/// Writes the failure atlas to `file` (Markdown) and its figures into a folder beside it; returns an ExitCode.
+/// Writes the failure atlas to `file` (Markdown) and its figures into a folder next to it; returns an ExitCode.
 int write_atlas(const std::filesystem::path &file, bool quiet)
 {
   const std::filesystem::path nearby  = file.parent_path().empty() ? "." : file.parent_path();

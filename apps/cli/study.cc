@@ -26,13 +26,13 @@ namespace
 {
 
 /**
- * Holds the folder of a study while it lives: one call at a time makes or merges all of it, shares of it are made side
- * by side.
+ * Locks the folder of a study during its lifetime: one call at a time makes or merges all of it; several calls can make
+ * shares in parallel.
  */
 class StudyLock : public FolderLock
 {
 public:
-  /// @throws std::invalid_argument with the process that holds the folder
+  /// @throws std::invalid_argument with the process that has locked the folder
   StudyLock(const std::filesystem::path &folder, const StudyShare &share);
 };
 
@@ -83,7 +83,7 @@ std::vector<std::filesystem::path> study_inputs(const CommonOptions &options, co
   return inputs;
 }
 
-/// Ranks of mpirun make a share each; the first merges them.
+/// Each rank of mpirun computes a share; the first merges them.
 void share_among_ranks(const coupling::Launch &ranks, StudyCall &call)
 {
   if (ranks.size == 1)

@@ -26,7 +26,7 @@ std::string working_folder()
   return std::filesystem::current_path(gone).string();
 }
 
-/// Ranks compute one thing together: what others than rank 0 were called for would be lost without a word.
+/// Ranks compute one task together: different command lines of other ranks would be ignored silently.
 void require_same_calls(const coupling::Launch &launched, const std::string &words, int n_others)
 {
   if (n_others == 0)
@@ -88,7 +88,7 @@ namespace
 
 coupling::Launch left;
 
-/// Variables of the environment that begin so.
+/// Environment variables with these prefixes.
 std::vector<std::string> variables_of(const std::vector<std::string> &beginnings)
 {
   std::vector<std::string> names;
@@ -110,10 +110,11 @@ void leave_team()
 namespace
 {
 
-/// By a process of its own, as MPI cannot be left and begun again.  @return ranks that were called otherwise
+/// In a separate process, because MPI cannot be finalised and initialised again.  @return number of ranks with another
+/// command line
 int called_otherwise(const std::string &words)
 {
-  constexpr int none = 50, most = 150; // as exit codes: MPI ends processes that it cannot begin with small ones
+  constexpr int none = 50, most = 150; // as exit codes: MPI ends processes that it cannot start with small ones
   const pid_t   child = fork();
   if (child == 0)
     try
@@ -127,7 +128,7 @@ int called_otherwise(const std::string &words)
     }
   int status = 0;
   if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) < none)
-    return 0; // no MPI in common: ranks share files alone
+    return 0; // no common MPI: ranks share only files
   return std::min(most, WEXITSTATUS(status) - none);
 }
 

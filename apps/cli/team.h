@@ -8,25 +8,25 @@ namespace gestell::apps
 {
 
 /**
- * The processes of mpirun for as long as it lives: rank 0 runs the program, the others serve it, and end with it.
+ * The processes of mpirun during its lifetime: rank 0 runs the program, the others serve it and end with it.
  *
- * Nothing but a look into the environment where the program runs by itself.
+ * Without mpirun it only reads the environment.
  */
 class MpiRun
 {
 public:
-  /// @param words  of the command line: ranks that were called otherwise are no team
+  /// @param words  command line: all ranks must have the same
   /// @throws std::invalid_argument see coupling::team_service(), and require_same_calls()
   explicit MpiRun(const std::string &words);
   ~MpiRun();
   MpiRun(const MpiRun &)            = delete;
   MpiRun &operator=(const MpiRun &) = delete;
 
-  /// This process is not to run the program.
+  /// Whether this process only serves rank 0.
   bool serves() const;
-  /// Does what rank 0 orders until it is dismissed.
+  /// Executes the commands of rank 0 until it is dismissed.
   void serve();
-  /// Rank 0, at the end: says so where the others had nothing to do.
+  /// On rank 0 at the end: prints a note if the other ranks were idle.
   void tell_idle() const;
 
 private:
@@ -34,15 +34,15 @@ private:
   coupling::TeamService *team_;
 };
 
-/// Makes this process one that no launcher started; before any MpiRun.
+/// Makes this process independent of the launcher; before any MpiRun.
 void leave_team();
-/// As leave_team() for ranks that share nothing but files, and know of each other.
-/// @throws std::invalid_argument if they were called otherwise than rank 0
+/// Like leave_team(), for ranks that share only files, and know their rank.
+/// @throws std::invalid_argument if a rank has another command line than rank 0
 void part_team(const std::string &words);
-/// What it was among the ranks that share files; alone if there are none.
+/// Its rank among the ranks that share files; a single process if there are none.
 coupling::Launch team_left();
 
-/// Whether the user wants a case of its own per process: the environment has GESTELL_APART, and not as 0.
+/// Whether the user requests a separate case per process: the environment variable GESTELL_APART is set, and is not 0.
 bool apart_by_environment();
 
 } // namespace gestell::apps

@@ -34,7 +34,7 @@ struct VerifyOptions
   bool                     all = false, list = false;
 };
 
-/// Frames are reduced anew, in a cache that vanishes.
+/// Frames are reduced from scratch, in a temporary cache.
 class EmptyCache
 {
 public:
@@ -99,7 +99,7 @@ void choose(std::vector<CaseFile> &files, const std::vector<std::string> &words)
               files.end());
 }
 
-/// Long cases count where they are named or all are asked for.
+/// Long cases are run if they are named or all are requested.
 int leave_long_ones(std::vector<CaseFile> &files, const VerifyOptions &requested)
 {
   int n = 0;

@@ -8,10 +8,10 @@
 namespace gestell::apps
 {
 
-/// An option as a person types it.
+/// An option as typed.
 struct SpelledOption
 {
-  std::vector<std::string> words;       ///< "-o", "--output"; none: an input, which has a place, not a name
+  std::vector<std::string> words;       ///< "-o", "--output"; none: a positional argument
   std::string              value;       ///< "TEXT"; empty: a flag
   std::string              description; ///< without the choices
   std::vector<std::string> choices;     ///< empty: any

@@ -6,16 +6,16 @@ namespace gestell::apps
 {
 
 /**
- * Makes standard input, output and error safe, first of all.
+ * Makes standard input, output and error safe; to be called first.
  *
- * One that is closed is opened on nothing: a file that is written would get its number, and the answer would be written
- * into it.  Writing to an output that was closed fails.  Who reads a pipe may end before the program does, which goes
- * on then: results are more than what is printed of them.
+ * A closed stream is opened on the null device: otherwise an output file would get its number, and text would be
+ * written into that file.  Writing to an output that was closed fails.  The reader of a pipe may end before the
+ * program, which continues: results are more than the printed text.
  */
 void secure_standard_streams();
 
-/// Why not all of the answer could be written to standard output: a full disk, a closed output.  "" if it was, or if
-/// its reader did not want more.
+/// Reason why the output was not completely written to standard output: a full disk, a closed output.  "" if it was, or
+/// if the reader of a pipe ended early.
 std::string standard_output_failure();
 
 } // namespace gestell::apps

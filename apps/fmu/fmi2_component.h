@@ -12,7 +12,7 @@
 namespace gestell::apps
 {
 
-/// One instance of the FMU, as its importer holds it.
+/// One instance of the FMU, for its importer.
 struct FmuComponent
 {
   enum class Phase
@@ -30,11 +30,11 @@ struct FmuComponent
   std::set<std::string>     categories{}; ///< empty: all
   std::unique_ptr<FmuModel> model{};
   Phase                     phase = Phase::instantiated;
-  double                    stop  = 0.; ///< [s] no step goes beyond; 0: not given
+  double                    stop  = 0.; ///< [s] limit of all steps; 0: not given
   bool                      stops = false;
 
   void log(fmi2Status status, const std::string &category, const std::string &message) const;
-  void tell_findings(); ///< and events of the model
+  void tell_findings(); ///< also events of the model
 };
 
 /// Phases in which a function may be called.
@@ -44,13 +44,13 @@ inline constexpr auto always         = {FmuComponent::Phase::instantiated, FmuCo
                                         FmuComponent::Phase::stepping, FmuComponent::Phase::terminated,
                                         FmuComponent::Phase::failed};
 
-/// A component of the importer; null if it is none.
+/// A component of the importer; null if it is not one.
 inline FmuComponent *component_of(fmi2Component component)
 {
   return static_cast<FmuComponent *>(component);
 }
 
-/// Calls f, which returns a status, and turns what it throws into one, with the message logged.  Nothing else leaves.
+/// Calls f, which returns a status; exceptions become a status with the message logged.
 /// @param within  names of phases in which the function may be called
 template <typename F>
 fmi2Status answered(fmi2Component c, const char *function, std::initializer_list<FmuComponent::Phase> within,

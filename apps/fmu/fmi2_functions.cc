@@ -125,7 +125,7 @@ fmi2Status refuse_type(fmi2Component c, const char *function, std::size_t n) noe
                   });
 }
 
-/// Of a failed FMU, too: the values at the last instant it reached.
+/// The value of a variable; for a failed FMU, at the last instant it reached.
 double value_of(FmuComponent &own, fmi2ValueReference reference)
 {
   FmuModel      &model    = *own.model;
@@ -373,7 +373,7 @@ FMI2_SHOWN fmi2Status fmi2DoStep(fmi2Component c, fmi2Real t, fmi2Real length, f
   return answered(c, "fmi2DoStep", {Phase::stepping}, [&](FmuComponent &own) { return step_to(own, t, length); });
 }
 
-// --- variables of other types, of which there are none
+// --- variables of other types, which this FMU does not have
 
 FMI2_SHOWN fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference *, std::size_t n, fmi2Integer *)
 {

@@ -11,7 +11,7 @@ namespace
 
 using Phase = FmuComponent::Phase;
 
-/// A state as the importer holds it.
+/// A state that the importer has saved.
 struct KeptState
 {
   FmuState state;

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-// The interface of FMI 2.0 in C, as its standard fixes it: names, order of arguments and numbers of the enumerations.
+// The C interface of FMI 2.0: names, order of arguments and numbers of the enumerations are those of the standard.
 // Source: Functional Mock-up Interface for Model Exchange and Co-Simulation 2.0.4, sections 2.1 and 4.2.
 
 extern "C"

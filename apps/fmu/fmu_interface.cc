@@ -37,7 +37,7 @@ std::shared_ptr<mechanism::InputValue> input_of(const ElementRequest &element)
   return nullptr;
 }
 
-/// Signal that tells the input as the element follows it.
+/// Signal of the input as it acts on the element.
 std::string path_of_input(const ElementRequest &element)
 {
   return element.name + (law_of_request<mechanism::SpeedDrive>(element) ? ".wanted_speed" : ".force");
@@ -68,7 +68,7 @@ void collect_words(const SceneNode &node, std::set<std::string> &words)
     collect_words(entry.second, words);
 }
 
-/// The variable with the dimension of its unit, as far as that is a product of kg, m, s and rad.
+/// The variable with the dimension of its unit, for products of kg, m, s and rad.
 FmuVariable with_unit(FmuVariable variable, const Dimension &dimension)
 {
   const double exponents[] = {dimension[1], dimension[0], dimension[2]};
@@ -78,7 +78,7 @@ FmuVariable with_unit(FmuVariable variable, const Dimension &dimension)
   return variable;
 }
 
-/// Of a signal: "N m"; what is no unit of the language has none.
+/// Variable of a signal with a unit such as "N m"; a unit that is not in the language has no dimension.
 FmuVariable measured(const std::string &name, const std::string &unit, double start = 0.)
 {
   const NameLookup no_names = [](const std::string &) { return std::optional<Quantity>(); };
@@ -117,7 +117,7 @@ std::vector<FmuVariable> parameter_variables(const SceneNode &root, const std::s
   SceneNode without = root;
   erase_entry(without, "parameters");
   if (SceneNode *run = without.find("run"))
-    erase_entry(*run, "end"); // is no limit here
+    erase_entry(*run, "end"); // does not limit the FMU
   const auto       used = parameters_in(without, table);
   const Parameters values(table);
   for (const auto &[name, value] : table->entries)
@@ -184,7 +184,7 @@ std::vector<std::pair<std::string, InputHandles>> scene_inputs(const Scene &scen
 namespace
 {
 
-/// Where the frame has no such motion a force would do nothing.
+/// Refuses an input on a motion that the machine does not have, since its force would have no effect.
 void require_coordinate(const Scene &scene, const ElementRequest &element, const coupling::Machine &machine)
 {
   for (const MotionMeasure &motion : element.measures)

@@ -16,21 +16,21 @@ namespace gestell::apps
 
 using InputHandles = std::vector<std::shared_ptr<mechanism::InputValue>>;
 
-/// Inputs of the scene's courses by name, in the order of elements; several courses may follow the same one.
+/// Inputs of the scene's profiles by name, in the order of elements; several profiles may use the same input.
 std::vector<std::pair<std::string, InputHandles>> scene_inputs(const Scene &scene);
 
 /**
- * What other programs may set and read of a scene: parameters that something depends on and that follow from no other,
- * inputs of courses, signals.
+ * Variables that other programs can set and read: parameters that are used and independent of others, inputs of
+ * profiles, signals.
  *
- * @param root    of the file that the scene was read from
- * @param frozen  parameters that are left out: a frame that was reduced before depends on them
+ * @param root    of the scene's file
+ * @param frozen  omitted parameters, on which a reduced frame depends
  * @throws std::invalid_argument if an input has the name of a signal
  */
 FmuInterface fmu_interface(const SceneNode &root, const Scene &scene, const coupling::Machine &machine,
                            const std::set<std::string> &frozen);
 
-/// Parameters that values of the table depend on, directly or by others; `parameters` is [parameters] or null.
+/// Parameters on which values of the table depend, directly or through others; `parameters` is [parameters] or null.
 std::set<std::string> parameters_in(const SceneNode &table, const SceneNode *parameters);
 
 } // namespace gestell::apps

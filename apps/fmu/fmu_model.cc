@@ -18,7 +18,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Of the archive; a host may have threads that a child would not get.
+/// The frame in the archive. It is not reduced here: the host may have threads that a child process would lose.
 coupling::ReducedFrame frame_at_hand(const Scene &scene)
 {
   try
@@ -53,7 +53,7 @@ std::string with_point(double value)
   return text;
 }
 
-/// In the scene; names of parameters have no dots.
+/// Key of the parameter in the scene; names in [parameters] have no dots.
 std::string key_of(const FmuVariable &parameter)
 {
   return (parameter.name.find('.') == std::string::npos ? "parameters." : "") + parameter.name;

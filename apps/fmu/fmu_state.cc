@@ -63,7 +63,7 @@ public:
   }
 
 private:
-  /// How many items of so many bytes follow.
+  /// Number of following items, each of `item` bytes.
   std::size_t size_of(std::size_t item)
   {
     std::uint64_t size = 0;
@@ -124,7 +124,7 @@ FmuState FmuState::of_bytes(const std::string &bytes)
   motion.t = t.size() == 1 ? t[0] : (StateReader::fail(), 0.);
   for (Eigen::VectorXd *values : {&motion.q, &motion.v})
     *values = vector_of(reader.finite_numbers());
-  motion.history = vector_of(reader.numbers()); // NaN there tells what never happened
+  motion.history = vector_of(reader.numbers()); // NaN: has not yet happened
   motion.ended   = reader.text();
   if (!reader.at_end())
     StateReader::fail();

@@ -38,7 +38,7 @@ struct DenseSolver : coupling::LinearSolver
   Eigen::PartialPivLU<Matrix> lu;
 };
 
-/// The parts of an OwnSystem that integrators ask for.
+/// The interfaces of an OwnSystem that integrators use.
 class Adapter : public coupling::SecondOrderSystem, public coupling::LinearSystem, public coupling::LocalForces
 {
 public:

@@ -10,18 +10,18 @@ namespace gestell
 {
 
 /**
- * A second-order system of one's own, in any consistent units:
+ * A user-defined second-order system, in any consistent units:
  *
  *     M q'' + B q' + C q = f(t) + W p(t, u, u'),     u = W^T q.
  *
- * Matrices are row by row.
+ * Matrices are stored row by row.
  */
 struct OwnSystem
 {
-  /// Forces p [n_u] at u, u' [n_u] with their derivatives [n_u x n_u], all to be written.
+  /// Forces p [n_u] at u, u' [n_u] with their derivatives [n_u x n_u]; all must be written.
   using Forces =
       std::function<void(double t, const double *u, const double *v, double *p, double *dp_du, double *dp_dv)>;
-  /// f(t) [n], to be written.
+  /// f(t) [n], must be written.
   using Load = std::function<void(double t, double *f)>;
 
   int                 n = 0, n_u = 0; ///< coordinates, measures of the nonlinear forces
@@ -31,12 +31,12 @@ struct OwnSystem
   Load                load{};         ///< may be empty
 };
 
-/// How it is integrated: `run.method` and its parameters in a scene, without events.
+/// Integration method: `run.method` and its parameters in a scene, without events.
 struct OwnMethod
 {
   std::string name      = "bdf"; ///< "newmark", "hht", "generalised-alpha", "central-difference", "exact" ...
   int         order     = 2;
-  double      step      = 0.; ///< [s] fixed; or with a tolerance the largest, 0: `end`
+  double      step      = 0.; ///< [s] fixed; with a tolerance the largest step, 0: `end`
   double      tolerance = 0.; ///< of the local error; 0: fixed step
 };
 
@@ -47,8 +47,9 @@ struct OwnMotion
   std::vector<double> q, v; ///< [times x n], row by row
 };
 
-/// Integrates from q, v [n] at t = 0 to `end`, with a row every `output_step`, first and last among them.
-/// @throws std::invalid_argument for sizes and numbers out of range, std::runtime_error where the method fails
+/// Integrates from q, v [n] at t = 0 to `end`, with a row every `output_step`, including the first and the last
+/// instant.
+/// @throws std::invalid_argument for wrong sizes and numbers out of range, std::runtime_error if the method fails
 GESTELL_SHOWN OwnMotion integrate(const OwnSystem &system, const std::vector<double> &q, const std::vector<double> &v,
                                   const OwnMethod &method, double end, double output_step);
 

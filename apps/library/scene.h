@@ -17,26 +17,26 @@ struct Peak
   double      min = 0., t_min = 0., max = 0., t_max = 0., final = 0.;
 };
 
-/// A law changes its branch: time [s], name of the element, what happens.
+/// A change of the branch of a law: time [s], name of the element, kind.
 struct Event
 {
   double      t = 0.;
   std::string name, kind;
 };
 
-/// What a run tells.  Copies share it.
+/// Results of a run.  Copies share them.
 class GESTELL_SHOWN Run
 {
 public:
   const std::map<std::string, Peak> &peaks() const;
   const std::vector<Event>          &events() const;
   const std::vector<std::string>    &warnings() const;
-  /// Why the run stopped early; empty: it did not.  What was computed until then is there.
+  /// Reason for an early end of the run; empty: none.  Results up to then are available.
   const std::string &failure() const;
 
   const std::vector<double> &times() const; ///< [s] of the history
-  /// History of a signal in SI, one value a time.
-  /// @throws std::invalid_argument for a name that is none, with the nearest one
+  /// History of a signal in SI, one value per time.
+  /// @throws std::invalid_argument for an unknown name, with the most similar one
   std::vector<double> history(const std::string &signal) const;
 
   /// Writes report.html, history.csv and all other files of a result.
@@ -59,23 +59,24 @@ struct Modes
 };
 
 /**
- * A scene as data: entries are set by their path, then computed.  Frames are reduced once and kept in the cache.
+ * A scene as data: keys are set by their path, then the scene is computed.  Frames are reduced once and cached.
  *
  *     gestell::Scene scene("press_minimal.toml");
  *     scene.set("parameters.c_P", "950 kN/mm");
  *     const gestell::Run run = scene.run();
  *
- * Wrong input throws std::invalid_argument with place, value and way out; what cannot be computed std::runtime_error.
+ * Wrong input throws std::invalid_argument with location, value and remedy; a failed computation throws
+ * std::runtime_error.
  */
 class GESTELL_SHOWN Scene
 {
 public:
   explicit Scene(const std::string &file);
-  /// A scene of a TOML text.
-  /// @param folder  relative paths start here
+  /// A scene from a TOML string.
+  /// @param folder  base of relative paths
   static Scene of_text(const std::string &text, const std::string &folder = ".");
 
-  /// The value as in `--set`: a number in SI, or text with its unit.
+  /// The value as for `--set`: a number in SI, or a string with a unit.
   Scene &set(const std::string &key, const std::string &value);
   Scene &set(const std::string &key, double value);
 
@@ -86,7 +87,7 @@ public:
 
 private:
   explicit Scene(std::shared_ptr<Parts> parts) : parts_(std::move(parts)) {}
-  std::shared_ptr<const Parts> parts_; ///< replaced by set(), so that copies stay as they are
+  std::shared_ptr<const Parts> parts_; ///< replaced by set(), so that copies are unchanged
 };
 
 } // namespace gestell

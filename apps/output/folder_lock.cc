@@ -21,7 +21,7 @@ namespace
 
 constexpr const char *lock_name = ".gestell-lock";
 
-/// Locks of the system are those of a process: what it holds itself it must know.
+/// Operating-system locks belong to a process, so that the process must record its own.
 class OwnLocks
 {
 public:
@@ -74,7 +74,7 @@ struct flock whole_range(short type)
   return lock;
 }
 
-/// What a holder wrote: process, computer and what it does, a line each.
+/// Contents of a lock file: process, computer and activity, one per line.
 struct Holder
 {
   std::string process, host, doing;
@@ -180,7 +180,7 @@ bool FolderLock::open_file()
   return file_ >= 0 || errno != ENOENT;
 }
 
-/// Who holds a file removes it before it lets go: then the lock is that of no file.
+/// The owner of a lock removes the file before it releases the lock: the lock may then belong to a deleted file.
 bool FolderLock::is_still_there() const
 {
   struct stat open_one = {}, there = {};
@@ -191,7 +191,7 @@ bool FolderLock::is_still_there() const
 void FolderLock::take(const std::string &doing, const std::string &way_out)
 {
   const short   type       = kind_ == Kind::alone ? F_WRLCK : F_RDLCK;
-  constexpr int most_tries = 1000; // while others make and remove the same folder
+  constexpr int most_tries = 1000; // while other processes create and remove the folder
   constexpr int most_waits = 200;  // [ms] to wait for the name of a new holder; on a full disk it never comes
   int           waits      = 0;
   for (int tries = 0; tries < most_tries; ++tries)
@@ -235,7 +235,7 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
     {
       const std::string words = std::to_string(getpid()) + "\n" + host() + "\n" + doing + "\n";
       if (ftruncate(file_, 0) != 0 || pwrite(file_, words.data(), words.size(), 0) != ssize_t(words.size()))
-        return; // a full disk: held, but nameless
+        return; // a full disk: locked, but without the process name
       return;
     }
     close(file_);

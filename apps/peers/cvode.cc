@@ -1,4 +1,4 @@
-// CVODE behind Stepper.
+// CVODE as a Stepper.
 
 #include "apps/peers/sundials.h"
 

@@ -1,4 +1,4 @@
-// ARKODE's explicit Runge-Kutta methods behind Stepper.
+// ARKODE's explicit Runge-Kutta methods as a Stepper.
 
 #include "apps/peers/sundials.h"
 

@@ -183,7 +183,7 @@ void FirstOrderForm::displacement_residual(double t, const double *y, const doub
   Eigen::Map<Vector>(r, n_) = product_ - f_;
 }
 
-/// f_ := A^-1 f_, with W_h^T f_ = held_rate_ afterwards where measures are held.
+/// f_ := A^-1 f_, with the constraint W_h^T f_ = held_rate_ for prescribed measures.
 void FirstOrderForm::solve_velocity()
 {
   ++work_.solves;

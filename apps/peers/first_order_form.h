@@ -12,12 +12,12 @@ namespace gestell::peers
 {
 
 /**
- * A SecondOrderSystem as y' = F(t, y), y = (q, v) [2 n], with what a library for such systems can make use of: its
- * Jacobian, and a solver for its Newton matrix that knows the structure.
+ * A SecondOrderSystem as y' = F(t, y), y = (q, v) [2 n], for libraries for such systems, with its Jacobian and a solver
+ * for its Newton matrix that exploits the structure.
  *
  *     q' = v,     v' = M^-1 (f_t + W p - B v - C q)
  *
- * Measures that are held keep u'' = 0 by p_h = -(W_h^T M^-1 W_h)^-1 W_h^T M^-1 (all other forces).
+ * Sticking measures have u'' = 0 with p_h = -(W_h^T M^-1 W_h)^-1 W_h^T M^-1 (all other forces).
  *
  * The libraries work on plain arrays: y, y', b are arrays of 2 n numbers.
  */
@@ -38,7 +38,7 @@ public:
   /// Measures and their forces at (t, y).
   void local_state(double t, const double *y, coupling::LocalState &local);
 
-  /// dp/du, dp/dv at (t, y), used by all that follows.
+  /// dp/du, dp/dv at (t, y), used by the following functions.
   void linearise(double t, const double *y);
 
   /// Prepares solving with the Newton matrix for a leading coefficient gamma [s]:
@@ -46,10 +46,10 @@ public:
   /// @return false if A is singular
   bool factorise(double gamma);
 
-  /// As factorise(), for  w_M M + w_B B + C - W (w_B dp/dv + dp/du) W^T: a formula in the displacements alone.
+  /// Like factorise(), for  w_M M + w_B B + C - W (w_B dp/dv + dp/du) W^T: a formula only in the displacements.
   bool factorise_displacements(double w_M, double w_B);
 
-  /// b [n] := (that matrix)^-1 b.
+  /// b [n] := (this matrix)^-1 b.
   void solve_displacements(double *b);
 
   /// r [n] = M v' + B v + C q - f_t - W p.
@@ -61,7 +61,7 @@ public:
   /// b := (dr/dy + 1/gamma dr/dy')^-1 b.
   void solve_residual_form(double *b);
 
-  /// Prepares for the dense Jacobians below.
+  /// Prepares the dense Jacobians below.
   /// @throws std::invalid_argument for a system too large for dense matrices
   void know_dense();
 
@@ -69,7 +69,7 @@ public:
   void rate_jacobian(Eigen::Ref<Eigen::MatrixXd> J);
 
   /// dr/dy + dr/dy' / gamma [2 n x 2 n].
-  /// @return false: not known while measures are held
+  /// @return false: unknown while measures stick
   bool residual_jacobian(double gamma, Eigen::Ref<Eigen::MatrixXd> J);
 
   /// Forces, factorisations and solves so far.

@@ -1,4 +1,4 @@
-// IDA behind Stepper.
+// IDA as a Stepper.
 
 #include "apps/peers/sundials.h"
 

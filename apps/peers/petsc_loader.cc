@@ -1,4 +1,4 @@
-// Finds the plugin that holds PETSc: loading it takes half a second, which only those pay who ask for it.
+// Finds the plugin with PETSc. Loading takes half a second, and is needed only for these methods.
 
 #include "apps/peers/stepper.h"
 #include "coupling/plugin/plugin.h"

@@ -1,4 +1,4 @@
-// PETSc TS behind Stepper; a plugin, see petsc_loader.cc.
+// PETSc TS as a Stepper; a plugin, see petsc_loader.cc.
 
 #include "apps/peers/stepper.h"
 #include "coupling/integration/system/hermite.h"
@@ -147,7 +147,7 @@ public:
   double        time() const override { return t_; }
   const double *state() const override { return y_.data(); }
 
-  /// By TSInterpolate; alpha2 has none, so by Hermite's cubic.
+  /// By TSInterpolate, or for alpha2, which has none, by Hermite's cubic.
   void interpolate(double t, double *y) override
   {
     if (!second_order_)
@@ -169,7 +169,7 @@ public:
   }
 
   void restart(double, const double *) override {} // only after events,
-  void watch(const std::vector<int> &) override {} // which are passed over
+  void watch(const std::vector<int> &) override {} // which it ignores
   int  root() override { return 0; }
   void count(coupling::IntegrationWork &work) override
   {
@@ -199,7 +199,7 @@ private:
     PetscPopSignalHandler();
   }
 
-  /// Newton with full steps; the condensed solver stands for both Krylov method and preconditioner.
+  /// Newton with full steps; the condensed solver replaces both Krylov method and preconditioner.
   void set_up_newton()
   {
     SNES           newton;

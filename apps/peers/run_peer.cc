@@ -214,7 +214,7 @@ private:
     before_guards();
   }
 
-  /// Remembers the guards at a start, where the library does not look for roots.
+  /// Stores the guards (event functions) at a start, where the library does not search for roots.
   void before_guards()
   {
     if (!options_.events)

@@ -99,7 +99,7 @@ int scale_add(int n_vectors, double *a, N_Vector x, N_Vector *y, N_Vector *z)
 }
 
 /// Replaces the arithmetic of a serial vector, and of all that are cloned from it, by loops compiled like the rest of
-/// this program.  Distributed binaries of SUNDIALS are built for any processor and take most of a step's time there.
+/// this program.  Distributed binaries of SUNDIALS are built for any processor; they would take most of the time.
 void use_native_arithmetic(N_Vector x)
 {
   N_Vector_Ops ops         = x->ops;

@@ -15,7 +15,7 @@ inline double *values(N_Vector x)
   return N_VGetArrayPointer(x);
 }
 
-/// The context, vectors and linear solver a SUNDIALS integrator needs; freed in the right order.
+/// The context, vectors and linear solver of a SUNDIALS integrator; freed in the right order.
 class SundialsParts
 {
 public:
@@ -25,13 +25,13 @@ public:
   SundialsParts(const SundialsParts &)            = delete;
   SundialsParts &operator=(const SundialsParts &) = delete;
 
-  /// A vector of 2 n numbers, freed with this.
+  /// A vector of 2 n numbers, owned by this object.
   N_Vector vector();
 
   SUNContext      context;
   N_Vector        y;                ///< starts as (q, v)
   N_Vector        weights;          ///< absolute tolerances
-  SUNMatrix       matrix = nullptr; ///< dense, or a name for the condensed one
+  SUNMatrix       matrix = nullptr; ///< dense, or a placeholder for the condensed one
   SUNLinearSolver solver = nullptr;
   std::string     failure;
 
@@ -40,7 +40,7 @@ private:
   long                  n_;
 };
 
-/// Functions that each integrator of SUNDIALS has under a name of its own.
+/// Functions that have a different name in each integrator of SUNDIALS.
 struct SundialsCalls
 {
   int (*interpolate)(void *memory, double t, int derivative, N_Vector y);
@@ -49,7 +49,7 @@ struct SundialsCalls
   int (*no_inactive_root_warning)(void *memory);
 };
 
-/// What the integrators of SUNDIALS have in common as Steppers.
+/// Common part of the SUNDIALS integrators as Steppers.
 class SundialsStepper : public Stepper
 {
 public:
@@ -68,7 +68,7 @@ protected:
                   const PeerOptions &options, bool with_solver);
 
   SundialsParts parts_;
-  void         *memory_ = nullptr; ///< of the integrator: made and freed by the derived class
+  void         *memory_ = nullptr; ///< of the integrator: allocated and freed by the derived class
   double        t_, end_;
 
 private:
@@ -79,22 +79,22 @@ private:
   SundialsCalls             calls_;
   N_Vector                  output_;
   std::vector<int>          found_;
-  coupling::IntegrationWork past_; ///< before the last restart, as integrators begin to count anew
+  coupling::IntegrationWork past_; ///< before the last restart, because integrators restart their counters
 };
 
-/// The guards' values, as integrators of y' = f(t, y) ask for them.
+/// Values of the guards, with the signature of integrators of y' = f(t, y).
 int guard_values(double t, N_Vector y, double *g, void *callbacks);
 
-/// y' = f(t, y), as they ask for it.
+/// y' = f(t, y), with their signature.
 int state_rate(double t, N_Vector y, N_Vector y_rate, void *callbacks);
 
-/// Keeps what a library says about its failure; its parameter is the string.
+/// Stores a library's error message; its parameter is the string.
 void keep_message(int code, const char *module, const char *function, char *message, void *text);
 
 /// Throws std::invalid_argument if a set-up call of a library returned an error.
 void expect(int code, const char *call);
 
-/// A "matrix" without entries for linear systems that are solved by a solver of our own.
+/// A "matrix" without entries, for linear systems that are solved by our own solver.
 SUNMatrix empty_matrix(SUNContext context);
 
 /// A solver that solves by FirstOrderForm::solve_rate_form (or _residual_form), factorised in the callback that sets up

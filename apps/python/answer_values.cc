@@ -20,7 +20,7 @@ py::array_t<double> numbers(const std::vector<double> &values)
   return py::array_t<double>(py::ssize_t(values.size()), values.data());
 }
 
-/// [rows x columns] of what lies row by row.
+/// Array [rows x columns] of values in row-major order.
 py::array_t<double> table(const std::vector<double> &values, std::size_t columns)
 {
   const std::size_t rows = columns == 0 ? 0 : values.size() / columns;

@@ -9,7 +9,7 @@
 namespace gestell::python
 {
 
-/// What is computed beside runs, as dicts of arrays, texts and numbers in SI; gestell.py gives them their names.
+/// Results other than runs, as dicts of arrays, strings and numbers in SI; gestell.py defines their names.
 pybind11::dict periodic_values(const apps::PeriodicResult &found);
 pybind11::dict along_values(const apps::AlongResult &along);
 pybind11::dict size_values(const apps::SizeResult &found);

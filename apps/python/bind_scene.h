@@ -5,7 +5,7 @@
 namespace gestell::python
 {
 
-/// The scene that gestell.py wraps.
+/// Binds the scene class that gestell.py wraps.
 void bind_scene(pybind11::module_ &module);
 
 } // namespace gestell::python

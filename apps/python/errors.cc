@@ -13,7 +13,7 @@ namespace py = pybind11;
 
 const char *const segment = "(?:[A-Za-z0-9_-]+|\"[^\"]+\")";
 
-/// The key that a text begins with, and the one that it says is unknown or missing there.
+/// The key at the start of a message, and the key that is unknown or missing there.
 std::string key_at_begin(const std::string &text)
 {
   static const std::regex path(std::string("^(") + segment + "(?:\\." + segment + ")*): ");

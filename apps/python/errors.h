@@ -7,22 +7,23 @@
 namespace gestell::python
 {
 
-/// Where a message of the program says that something is wrong.
+/// Location in an error message of the program.
 struct MessagePlace
 {
-  std::string file; ///< empty: the scene is no file
+  std::string file; ///< empty: the scene has no file
   int         line = 0;
-  std::string key;              ///< "run.step", "body.mass.type"; empty: the message names none
-  bool        of_scene = false; ///< the message is about a scene at all
+  std::string key;              ///< "run.step", "body.mass.type"; empty: the message contains none
+  bool        of_scene = false; ///< whether the message is about a scene
 };
 
-/// Of "press.toml:12: element.rod.stiffness: needs ...", "scene: run: unknown key 'stp'", "scene[\"run.step\"]: ...".
+/// Parses "press.toml:12: element.rod.stiffness: needs ...", "scene: run: unknown key 'stp'", "scene[\"run.step\"]:
+/// ...".
 MessagePlace place_of(const std::string &message);
 
-/// The message with options of the command line named as arguments: "--from" is "from_".
+/// The message with command-line options renamed to arguments: "--from" becomes "from_".
 std::string in_python(std::string message);
 
-/// InputError, SceneError and ComputationFailed, which what the program throws becomes.
+/// Binds InputError, SceneError and ComputationFailed, to which exceptions of the program are converted.
 void bind_errors(pybind11::module_ &module);
 
 } // namespace gestell::python

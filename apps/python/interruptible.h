@@ -5,8 +5,8 @@
 namespace gestell::python
 {
 
-/// While one lives Ctrl-C ends runs instead of raising KeyboardInterrupt when they are done; afterwards Python has it
-/// back.  Needs the lock of the interpreter at both ends of its life.
+/// During its lifetime Ctrl-C ends runs instead of raising KeyboardInterrupt after them; afterwards the handler of
+/// Python is restored.  Constructor and destructor need the interpreter lock.
 class Interruptible
 {
 public:

@@ -1,4 +1,4 @@
-// The module _gestell, on which gestell.py rests.
+// The module _gestell, which gestell.py uses.
 
 #include "apps/analysis/result_folder.h"
 #include "apps/output/folder_lock.h"
@@ -78,7 +78,7 @@ py::object sensitivities_of(const PythonResult &result)
   return std::move(all);
 }
 
-/// By their names, those of several words by tuples.
+/// Arrays by name; names of several words are tuples.
 py::dict arrays_of(const PythonResult &result)
 {
   py::dict all;

@@ -12,7 +12,7 @@
 namespace gestell::python
 {
 
-/// A reduced frame that scenes share.
+/// A reduced frame shared by scenes.
 struct PythonFrame
 {
   explicit PythonFrame(std::shared_ptr<const coupling::ReducedFrame> made) : frame(std::move(made)) {}
@@ -22,7 +22,7 @@ struct PythonFrame
   std::vector<std::string> coordinates() const; ///< "frame.crown.ux", ..., "mode 1"
 };
 
-/// A frame that is not reduced: sparse matrices, which numpy and scipy see where they lie.
+/// A frame that is not reduced: sparse matrices, which numpy and scipy use without copies.
 struct PythonFullFrame
 {
   fem::FrameMatrices frame;

@@ -12,7 +12,7 @@
 namespace gestell::python
 {
 
-/// What was computed, with the session that it refers to.
+/// Results of a computation, with the session to which they refer.
 class PythonResult
 {
 public:
@@ -22,9 +22,9 @@ public:
   }
 
   const apps::Result &result() const { return result_; }
-  /// With spectra and orders, which only files tell: made at the first call.
+  /// With spectra and orders, which otherwise only files contain: computed at the first call.
   const apps::Result &whole_result();
-  /// @throws std::invalid_argument if nothing was run
+  /// @throws std::invalid_argument if there is no run
   const coupling::RunResult &run() const;
 
 private:
@@ -33,14 +33,14 @@ private:
   bool                           whole_ = false;
 };
 
-/// Numbers of an object as an array that keeps it alive and cannot be written to.
+/// Numbers of an object as a read-only array that keeps it alive.
 pybind11::array read_only(const pybind11::object &result, std::vector<pybind11::ssize_t> shape,
                           std::vector<pybind11::ssize_t> strides, const double *first);
 
-/// The history [rows x columns] of a result, whose memory it shows and keeps alive; it cannot be written to.
+/// The history [rows x columns] of a result as a read-only view that keeps it alive.
 pybind11::array history_view(const pybind11::object &result);
 /// One column of it, by the name of a signal, "t", or an energy.
-/// @throws std::invalid_argument with the nearest name
+/// @throws std::invalid_argument with the most similar name
 pybind11::array column_view(const pybind11::object &result, const std::string &name);
 
 /// Shapes of modes in columns.

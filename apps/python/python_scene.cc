@@ -33,7 +33,7 @@ using apps::Place;
 using apps::Scene;
 using apps::SceneNode;
 
-/// Where a scene without a file stands.
+/// Path of a scene without a file.
 std::string path_in(const std::string &folder)
 {
   return (fs::absolute(folder) / "scene").lexically_normal().string();
@@ -52,7 +52,7 @@ void require_known_parameter(const SceneNode &root, const std::vector<std::strin
     place.fail("the scene has no parameter '" + key[1] + "'" + suggestion(key[1], all));
 }
 
-/// Leaves out the other signals, and what the choice does without.
+/// Removes unselected signals, and output that the choice does not need.
 void keep(Scene &scene, const RunChoice &choice)
 {
   coupling::RunOptions &run = scene.run.options;
@@ -67,7 +67,7 @@ void keep(Scene &scene, const RunChoice &choice)
     run.output_step = run.end - run.begin;
 }
 
-/// Marks the thread that makes a frame, while it lives.
+/// Marks the thread that computes a frame, during the lifetime of this object.
 class MakingFrame
 {
 public:
@@ -85,7 +85,7 @@ private:
   static inline thread_local bool here = false;
 };
 
-/// The reduced frames of all scenes; two threads do not make the same.
+/// The reduced frame of a scene; concurrent threads do not compute the same frame twice.
 std::shared_ptr<const coupling::ReducedFrame> shared_frame(const Scene &scene, const coupling::Progress &progress)
 {
   static apps::ReducedFrameStore *const shelf =
@@ -257,7 +257,7 @@ std::shared_ptr<apps::Session> PythonScene::session(Scene scene, const apps::Wat
   return result;
 }
 
-/// With signals of the same name for paths, "slide.displacement", that the scene has none for.
+/// The scene with additional signals for paths such as "slide.displacement", named by their path.
 Scene PythonScene::scene_with(const std::vector<std::string> &signals) const
 {
   Scene                    scene = this->scene();

@@ -20,12 +20,12 @@
 namespace gestell::python
 {
 
-/// What is computed of a run.
+/// Options of a run.
 struct RunChoice
 {
-  /// Names of signals, or what they read, "slide.displacement"; none: all that the scene asks for.
+  /// Names of signals, or their paths, "slide.displacement"; none: all signals of the scene.
   std::optional<std::vector<std::string>> signals{};
-  bool                                    history = true;  ///< false: their extremes alone
+  bool                                    history = true;  ///< false: only their extremes
   bool                                    lean    = false; ///< no energy balance and no pictures, as in studies
   apps::OptionTexts                       options{};       ///< of analyses, {"--sensitivities", {"all"}}
   pybind11::object                        progress = pybind11::none();
@@ -35,47 +35,47 @@ struct SizeChoice
 {
   double      tolerance = 0.;  ///< relative
   std::string outputs{};       ///< "F_P.max,F_P.min"
-  double      max_cpu    = 0.; ///< [s]; 0: any
+  double      max_cpu    = 0.; ///< [s]; 0: unlimited
   bool        exhaustive = false;
 };
 
 /**
- * A scene as data: entries can be read and set, then computed.  A change costs its reading; frames are reduced once and
- * kept in memory for all scenes of the process (apps::ReducedFrameStore).
+ * A scene as data: keys can be read and set, then the scene is computed.  After a change the scene is read again;
+ * frames are reduced once and stored in memory for all scenes of the process (apps::ReducedFrameStore).
  *
- * Wrong input throws std::invalid_argument, a computation that fails std::runtime_error.  Computing leaves the lock of
- * the interpreter to others.
+ * Wrong input throws std::invalid_argument, a failed computation std::runtime_error.  Computations release the
+ * interpreter lock.
  */
 class PythonScene
 {
 public:
   static PythonScene of_file(const std::string &path);
-  /// @param folder  relative paths start here
+  /// @param folder  base of relative paths
   static PythonScene of_text(const std::string &text, const std::string &folder);
   static PythonScene of_values(const pybind11::dict &values, const std::string &folder);
 
-  /// One entry, "parameters.c_P".  @throws std::invalid_argument for a parameter that the scene does not have
+  /// Sets one key, "parameters.c_P".  @throws std::invalid_argument for a parameter that the scene does not have
   void set(const std::string &key, pybind11::handle value);
-  /// Several entries of a table, "body.crank", made if it is not there; as if they had been given at the begin.
+  /// Sets several keys of a table, "body.crank", which is created if necessary; as if the original scene had them.
   void                     add(const std::string &table, const pybind11::dict &entries);
   pybind11::object         get(const std::string &key) const; ///< @throws pybind11::key_error
   pybind11::object         values() const;                    ///< all, as a dict
   std::string              name() const;
   std::vector<std::string> signals() const;
   std::vector<std::string> check() const; ///< warnings
-  std::vector<std::string> words() const; ///< the scene as it was understood, a line each
+  std::vector<std::string> words() const; ///< summary of the scene as understood, one fact per line
 
-  /// @throws pybind11::error_already_set ComputationFailed, KeyboardInterrupt: with what was computed in `result`
+  /// @throws pybind11::error_already_set ComputationFailed, KeyboardInterrupt: with the results so far in `result`
   std::shared_ptr<PythonResult>    run(const RunChoice &choice) const;
   std::shared_ptr<PythonResult>    modes(const apps::OptionTexts &options, pybind11::object progress) const;
   std::shared_ptr<PythonResult>    periodic(const apps::PeriodicRequest &request, pybind11::object progress) const;
   std::shared_ptr<PythonFrame>     frame() const; ///< reduced
   std::shared_ptr<PythonFullFrame> full_frame() const;
   apps::StabilityStudy             stability(double step) const;
-  /// The search, and this scene with the sizes that it chose.
+  /// The search, and this scene with the chosen sizes.
   std::pair<apps::SizeResult, PythonScene> size(const SizeChoice &choice) const;
   std::shared_ptr<apps::StateSpaceModel>   state_space(const apps::FrfOptions &options) const;
-  /// @param options  texts by the names of options, "--from"
+  /// @param options  strings by the names of options, "--from"
   std::shared_ptr<PythonResult> analyse(const std::string &analysis, const apps::OptionTexts &options,
                                         pybind11::object progress) const;
 

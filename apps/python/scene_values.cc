@@ -28,7 +28,7 @@ public:
   }
 };
 
-/// As Python writes it, a long one cut.
+/// The value as Python writes it, truncated if long.
 std::string written(py::handle value)
 {
   constexpr std::size_t longest = 80; // a line of a message

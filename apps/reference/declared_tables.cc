@@ -131,7 +131,7 @@ std::string unit_of(const Kind &kind)
     return kind.refused == Counts::radians ? "[Hz]" : "[rad/s]";
   if (equal(kind.dimension, {}))
     return kind.refused == Counts::turns ? "[rad]" : "";
-  const auto angle = kind.example.find("/rad"); // of what is there for one radian
+  const auto angle = kind.example.find("/rad"); // per radian
   return "[" + describe(kind.dimension) + (angle == std::string::npos ? "" : kind.example.substr(angle)) + "]";
 }
 

@@ -6,10 +6,10 @@ namespace gestell::apps
 {
 
 /**
- * What the scene language says about `topic`: the list of tables for "", the keys of a table ("element.rope", "rope"),
- * or every key of that name ("stiffness", "element.rope.stiffness").
+ * Help on a topic of the scene language: the list of tables for "", the keys of a table ("element.rope", "rope"), or
+ * all keys of a name ("stiffness", "element.rope.stiffness").
  *
- * @throws std::invalid_argument with the nearest names.
+ * @throws std::invalid_argument with the most similar names.
  */
 std::string help_text(const std::string &topic);
 

@@ -101,7 +101,7 @@ Types types_of(const Key &key)
   return types;
 }
 
-/// Limits hold for plain numbers alone; text may be an expression.
+/// Limits apply to plain numbers only; text may be an expression.
 void add_range(Json &json, Key::Range range)
 {
   if (range == Key::Range::from_zero)
@@ -115,7 +115,7 @@ void add_range(Json &json, Key::Range range)
 void add_keys(Json &json, const std::vector<Key> &keys, bool open);
 void add_place(Json &json, const Place &place);
 
-/// What an array or a table holds.
+/// Adds the contents of an array or a table.
 void add_inside(Json &json, const Key &key)
 {
   using Form = Key::Form;
@@ -154,7 +154,7 @@ void add_keys(Json &json, const std::vector<Key> &keys, bool open)
     json["additionalProperties"] = false;
 }
 
-/// Keys of all tables without a type that stand here; one of the same name takes what any of them takes.
+/// Keys of all tables without a type at this place; keys of the same name accept what any of them accepts.
 std::vector<Key> keys_here(const Place &place)
 {
   std::vector<Key> keys;
@@ -195,7 +195,7 @@ bool has_types(const Place &place)
   return std::any_of(place.tables.begin(), place.tables.end(), [](const auto *table) { return !table->type.empty(); });
 }
 
-/// The members of a schema for what stands here.
+/// Adds the members of a schema for this place.
 void add_place(Json &json, const Place &place)
 {
   if (place.named)
@@ -218,7 +218,7 @@ void add_place(Json &json, const Place &place)
   json["additionalProperties"] = false;
 }
 
-/// Keys that every type of a family has, beside its own.
+/// Keys that all types of a family share.
 std::vector<Key> common_keys(const DeclaredTable &type)
 {
   for (const DeclaredTable &table : declared_tables())

@@ -5,8 +5,8 @@
 namespace gestell::apps
 {
 
-/// JSON Schema (2020-12) of the declared tables of a scene, for editors of TOML; what is not declared is left open.  It
-/// demands no key, because a scene that extends another gives some of them alone.
+/// JSON Schema (2020-12) of the declared tables of a scene, for TOML editors; undeclared keys are allowed.  It requires
+/// no key, because a scene that extends another contains only some of them.
 std::string json_schema();
 
 } // namespace gestell::apps

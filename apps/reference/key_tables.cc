@@ -108,7 +108,7 @@ std::string key_tables(const std::string &topic)
 namespace
 {
 
-/// What stands behind a marker: "keys: run", "result files"; nothing behind other remarks.
+/// Text generated for a marker: "keys: run", "result files"; none for other remarks.
 std::string generated(const std::string &marker)
 {
   const std::string keys = "keys: ";

@@ -8,7 +8,7 @@ namespace gestell::apps
 /// The tables of a study file: "study", "study.design".
 const std::vector<DeclaredTable> &study_tables();
 
-/// Those of scenes, then those of studies.
+/// Tables of scenes, then of studies.
 const std::vector<DeclaredTable> &told_tables();
 
 } // namespace gestell::apps

@@ -63,8 +63,8 @@ bool turns(const Scene &scene, const std::string &coordinate)
                      { return body.name == coordinate && body.kind == coupling::BodyKind::rotor; });
 }
 
-/// Adds warnings of numbers that a scene may have but machines hardly do, as a unit that was forgotten or mistaken
-/// makes them: masses, radii of gyration, places, angles of the start, gravity that acts upwards.
+/// Adds warnings about valid but implausible numbers, typically because of a missing or wrong unit: masses, radii of
+/// gyration, positions, initial angles, gravity that acts upwards.
 void warn_of_implausible_numbers(Scene &scene)
 {
   Unexpected found;
@@ -86,7 +86,7 @@ void warn_of_implausible_numbers(Scene &scene)
                              " m/s^2; where z points up it is [0, 0, \"-9.81 m/s^2\"]");
 }
 
-/// The name of a reduction, whose keys are those of the table.
+/// Reads the name of a reduction and its keys in the table.
 coupling::ReductionEntry read_reduction_method(const SceneTable &table)
 {
   const auto        entries = coupling::Reductions::entries();
@@ -163,8 +163,8 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
   return request;
 }
 
-/// Names of coordinates that are no motion of a body or an interface: inner ones of the frame, the directors of a rigid
-/// body, and lags of elements.  Whether the machine has them shows when it is built.
+/// Whether a name may be a coordinate that is not a motion of a body or an interface: internal DOFs of the frame, the
+/// directors of a rigid body, and lags of elements.  They are checked when the machine is built.
 bool is_inner_coordinate(const std::string &name, const Names &names, const Scene &scene)
 {
   for (const ElementRequest &element : scene.elements)
@@ -296,7 +296,7 @@ void check_gravity(const SceneTable &table, const Scene &scene)
 {
   const auto      &g              = scene.gravity;
   const double     amount         = std::hypot(g[0], g[1], g[2]);
-  constexpr double strong_gravity = 100.; // m/s^2, ten times that of the earth
+  constexpr double strong_gravity = 100.; // [m/s^2] ten times the gravity of the earth
   if (amount > strong_gravity)
   {
     std::ostringstream text;

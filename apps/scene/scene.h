@@ -13,13 +13,13 @@ namespace gestell::apps
  * Reads and validates a scene without computing anything (docs/scene is the reference of its keys).
  *
  * @param overrides  of the command line, "key.path=value".
- * @param scripts    of gmsh that the scene names; no scene can trust its own.
- * @throws std::invalid_argument "press.toml:12: body.crank.inertia: ..." for everything a user can get wrong in it.
+ * @param scripts    policy for gmsh scripts of the scene; a scene cannot change it.
+ * @throws std::invalid_argument "press.toml:12: body.crank.inertia: ..." for every error in the scene.
  */
 Scene read_scene(const std::string &path, const std::vector<std::string> &overrides = {},
                  fem::Scripts scripts = fem::Scripts::harmless);
 
-/// The same of a file that has been read (read_scene_file()).
+/// The same for a file that has been read (read_scene_file()).
 Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts scripts);
 
 } // namespace gestell::apps

@@ -42,7 +42,7 @@ double parameter_at(const std::vector<std::pair<double, double>> &pairs, double 
   return below->second + (omega - below->first) / (above->first - below->first) * (above->second - below->second);
 }
 
-/// Largest amplitude of the mode in the solutions, by its displacement and rate at their begin.
+/// Largest amplitude of the mode in the solutions, from its displacement and rate at their start.
 double largest_amplitude(const coupling::Machine &machine, const coupling::SlowFlow &flow, const VectorXd &rest,
                          const std::vector<PeriodicEntry> &entries)
 {
@@ -111,7 +111,7 @@ std::vector<PeriodicEntry> backbone_of(coupling::Machine &machine, const couplin
   }
   catch (const std::invalid_argument &)
   {
-    // averaging does not serve here: there is no backbone to be drawn
+    // averaging is not applicable here: no backbone
   }
   catch (const coupling::NoPeriodicMotion &)
   {

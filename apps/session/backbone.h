@@ -10,14 +10,16 @@ namespace gestell::apps
 {
 
 /**
- * The backbone of the mode nearest to the load, from small amplitudes to those of the solutions: free motions
+ * The backbone of the mode nearest to the load frequency: free vibrations with amplitudes from small values to those of
+ * the solutions,
  *
  *     q = mean + phi a cos(omega(a) t),     omega^2 = omega_0^2 + k(a)
  *
- * with their signals, each with the parameter at which the load has this frequency; phi, omega_0, k(a) as in SlowFlow.
+ * with their signals, each with the parameter value at which the load has the frequency omega(a); phi, omega_0, k(a) as
+ * in SlowFlow.
  *
- * Empty where the parameter is not the load's frequency, the machine has more than a few coordinates, or averaging
- * does not serve.
+ * Empty if the parameter is not the load's frequency, the machine has more than a few coordinates, or averaging is not
+ * applicable.
  */
 std::vector<PeriodicEntry> backbone_of(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
                                        const std::vector<PeriodicEntry>    &entries,

@@ -91,7 +91,7 @@ std::pair<PlaneSide, PlaneSide> sides_of(const coupling::Machine &machine, const
   return sides;
 }
 
-/// Smallest and largest of (q, q') over all motions, ramps of what turns taken off [2n].
+/// Smallest and largest (q, q') over all motions, without the linear growth of rotating coordinates [2n].
 std::pair<VectorXd, VectorXd> extremes(const coupling::PeriodicProblem               &problem,
                                        const std::vector<coupling::PeriodicSolution> &solutions)
 {
@@ -120,7 +120,7 @@ std::pair<double, double> ends_of(const PlaneSide &side, const std::pair<VectorX
     return *side.ends;
   const double     one = side.sign * motion.first[side.index], other = side.sign * motion.second[side.index];
   const double     low = std::min(one, other), high = std::max(one, other);
-  constexpr double excursions = 2.; // of the motions, that the plane reaches to either side
+  constexpr double excursions = 2.; // extent of the plane in both directions, in excursions of the motions
   const double     middle = 0.5 * (low + high), reach = 0.5 * excursions * (high - low);
   if (!(reach > 0.))
     throw std::invalid_argument("--basins: " + side.name + " does not move in the motions found; give its ends, \"" +

@@ -12,21 +12,21 @@ namespace gestell::apps
 {
 
 /**
- * The plane of starts that `--basins` asks for: "X, Y", coordinates as [start] names them, with ' their rates, each
- * with "from A to B" if wanted; else over twice the largest excursions of the motions found.
+ * The plane of initial states given by `--basins`: "X, Y" are coordinates as in [start], or their rates with ', each
+ * with an optional "from A to B"; the default is twice the largest excursion of the solutions found.
  *
- * @throws std::invalid_argument with the part that is wrong
+ * @throws std::invalid_argument with the wrong part of the text
  */
 coupling::StartPlane start_plane(const coupling::Machine &machine, const coupling::PeriodicProblem &problem,
                                  const std::vector<coupling::PeriodicSolution> &solutions,
                                  const PeriodicRequest                         &request);
 
-/// What the text of --basins says wrong about the machine, before anything is computed.
+/// Checks the text of --basins against the machine before anything is computed.
 /// @throws std::invalid_argument
 void check_basins(const coupling::Machine &machine, const coupling::PeriodicProblem &problem,
                   const PeriodicRequest &request);
 
-/// The basins of the solutions in it, or a note why there are none.
+/// Adds the basins of the solutions in this plane, or a note why there are none.
 void find_basins(const coupling::Machine &machine, const coupling::PeriodicProblem &problem,
                  const coupling::PeriodicGuess &start, const std::vector<coupling::PeriodicSolution> &solutions,
                  const coupling::PeriodicOptions &options, const PeriodicRequest &request,

@@ -9,11 +9,11 @@
 namespace gestell::apps
 {
 
-/// Rows of the history, as many as there are.
+/// Access to the rows of the history.
 class HistoryRows
 {
 public:
-  /// @param from  [s] time of the first row that counts
+  /// @param from  [s] time of the first row that is used
   explicit HistoryRows(const coupling::RunResult &run, double from = -std::numeric_limits<double>::infinity())
       : run_(run), width_(run.columns.size()), n_(width_ > 0 ? run.rows.size() / width_ : 0)
   {
@@ -24,7 +24,7 @@ public:
   std::size_t size() const { return n_ - first_; }
   double      t(std::size_t i) const { return at(i, 0); }
   double      at(std::size_t i, std::size_t column) const { return run_.rows[(first_ + i) * width_ + column]; }
-  /// @return 0, the time, if there is none
+  /// @return 0, the column of the time, if there is no such column
   std::size_t column(const std::string &name) const
   {
     const auto found = std::find(run_.columns.begin(), run_.columns.end(), name);

@@ -16,7 +16,7 @@ std::string path_of_normal_force(const coupling::FrameJoint &joint)
   return "frame." + coupling::joint_outputs(joint).back().first;
 }
 
-/// Number of the signal that tells a normal force; the scene's own comes first.  @return -1 if there is none.
+/// Index of the signal of a normal force; the scene's own signals come first.  @return -1 if there is none.
 int number_of(const Scene &scene, const std::vector<coupling::Signal> &signals, const std::string &path)
 {
   for (std::size_t i = 0; i < scene.signals.size(); ++i)

@@ -25,7 +25,7 @@ using coupling::Signal;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Signals of a state at the begin of a period, when elements have nothing to remember yet.
+/// Signals of a state at the start of a period, when elements have no history yet.
 class BeginReader
 {
 public:
@@ -58,7 +58,7 @@ private:
   coupling::LocalState                   local_;
 };
 
-/// Of the section: signals at all its points, row major.
+/// Signals at all points of the section, row major.
 std::vector<double> read_section(coupling::Machine &machine, double begin, const Eigen::MatrixXd &section,
                                  const std::vector<Signal> &signals)
 {
@@ -154,7 +154,7 @@ bool is_wanted(const PeriodicProblem &problem, const PeriodicRequest &request,
   return nothing || (method.finds_all() && !lasts(solutions));
 }
 
-/// What is recognised is an answer, with the motion itself where it repeats.
+/// A recognised motion is a result; if it is periodic, the solution is added.
 void settle_failure(const PeriodicProblem &problem, const coupling::PeriodicOptions &options, const Recurrence &motion,
                     std::vector<PeriodicSolution> &solutions, PeriodicResult &found)
 {
@@ -235,7 +235,7 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
   for (const Signal &signal : signals)
     run.columns.push_back(signal.name + " [" + signal.unit + "]");
   run.rows = read_section(machine, problem.begin, run.motion.section, signals);
-  if (run.motion.kind != "periodic") // of which the section is a point
+  if (run.motion.kind != "periodic") // otherwise the section is a single point
     run.planes = section_planes(machine, problem.begin, run.motion, signals);
   found.long_run = std::move(run);
 }

@@ -10,17 +10,17 @@
 namespace gestell::apps
 {
 
-/// That enough periods are asked for, of one machine.  @throws std::invalid_argument
+/// Checks that enough periods are requested, for a single machine.  @throws std::invalid_argument
 void check_long_run(const PeriodicRequest &request);
 
 /**
- * Verifies the motions that are called stable by a run, unless they are those of a branch.
+ * Verifies solutions classified as stable by a run, except those of a branch.
  *
- * Follows the motion that begins at `start` for some hundred periods where nothing that lasts was found, or where the
- * request asks for it, and tells what it is.
+ * Then classifies the long-term motion from `start` over a few hundred periods, if no stable solution was found or the
+ * request asks for it.
  *
- * A motion that repeats, after several periods too, is then computed, into `solutions`.  What is recognised is no
- * failure any more.
+ * If this motion is periodic, also with several excitation periods, the solution is computed and added to `solutions`.
+ * A failure of the search is cleared if the motion is recognised.
  */
 void follow_long_run(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
                      const coupling::PeriodicGuess &start, const coupling::PeriodicOptions &options,

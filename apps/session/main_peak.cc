@@ -9,7 +9,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Where there are pictures, in its place among them.
+/// Inserts the state among the saved ones, if there are any.
 void add_picture(const coupling::KeptState &kept, coupling::RunResult &run)
 {
   auto      &times = run.picture_times;

@@ -5,13 +5,13 @@
 namespace gestell::apps
 {
 
-/// The signal whose extreme a picture of the run shows: the first force, else the first that is asked for; -1: none.
+/// Index of the signal whose extreme a picture shows: the first force, else the first requested one; -1: none.
 int main_signal(const std::vector<coupling::Signal> &signals);
 
-/// Asks a run to keep, behind all other extremes, the states at the largest and the smallest value of that signal.
+/// Adds to the requested states, after all other extremes, those at the largest and the smallest value of that signal.
 void ask_for_peak(const std::vector<coupling::Signal> &signals, coupling::StateRequest &states);
 
-/// Takes from the run the one of the larger magnitude; nothing where the run did not come to one.
+/// Takes from the run the state with the larger magnitude; empty if the run reached neither.
 std::optional<PeakState> taken_peak(const std::vector<coupling::Signal> &signals, coupling::RunResult &run);
 
 } // namespace gestell::apps

@@ -59,7 +59,7 @@ private:
 
 const std::string reads = "read by";
 
-/// Of an output of the frame, which the inside has too: its interfaces are not there for it.
+/// Whether an output of the frame depends on internal DOFs: interfaces are not retained for it.
 bool reads_modes(const coupling::Measure &measure, const coupling::ReducedFrame &frame)
 {
   const int n = int(frame.M.rows());
@@ -102,7 +102,7 @@ double take(Eigen::MatrixXd &R, Eigen::Index i)
   return length;
 }
 
-/// Gives coordinates that hold free motions of the frame their reason, see partition_of().
+/// Assigns the reason to coordinates that constrain rigid-body modes of the frame, see partition_of().
 void hold_free_motions(const coupling::ReducedFrame &frame, Reasons &reasons, Partition &partition)
 {
   partition.n_free = frame.n_rigid();

@@ -9,13 +9,13 @@
 namespace gestell::apps
 {
 
-/// Why the coordinates of a reduced frame are in q1 (5.5.3/14).
+/// Reasons why the coordinates of a reduced frame are in q1 (5.5.3/14).
 struct Partition
 {
   struct Row
   {
     std::string              coordinate; ///< "frame.crown.uz"
-    std::vector<std::string> reasons;    ///< "nonlinear: rod"; none: nothing of the scene acts on it or reads it
+    std::vector<std::string> reasons;    ///< "nonlinear: rod"; none: no object of the scene acts on it or reads it
   };
   struct Idle
   {
@@ -25,18 +25,18 @@ struct Partition
 
   std::vector<Row>         rows;
   std::vector<Idle>        superfluous; ///< interfaces without a reason
-  std::vector<std::string> only_read;   ///< those that signals read and nothing acts on
-  int                      n2      = 0; ///< coordinates of the inside, of the unreduced frame
+  std::vector<std::string> only_read;   ///< interfaces that only signals read, without loads
+  int                      n2      = 0; ///< number of internal DOFs of the unreduced frame
   int                      n_modes = 0;
-  int                      n_free  = 0; ///< motions of the frame without stiffness, which its held interface stops
-  int n_held_by_acted              = 0; ///< of these, by coordinates that something acts on or reads alone: a rank
-  int n_massless = 0; ///< coordinates of q2 without mass, of frames given by matrices: M22 is singular
+  int                      n_free  = 0; ///< number of rigid-body modes of the frame, which the fixed interface prevents
+  int                      n_held_by_acted = 0; ///< how many of these the coordinates with a reason prevent: a rank
+  int n_massless = 0; ///< number of massless coordinates of q2, for frames given by matrices: M22 is singular
 };
 
-/// What acts on every coordinate of the interfaces and what reads it, by name: elements and joints (nonlinear,
-/// constrained), springs and dampers, loads, bodies and masses that it carries, signals.  Motions R without stiffness
-/// must be held by q1, or C22 is singular: rank R_1 = n_free. Coordinates that nothing acts on and that this rank needs
-/// have that reason.
+/// Lists by name what acts on or reads every interface coordinate: elements and joints (nonlinear, constrained),
+/// springs and dampers, loads, carried bodies and masses, signals.  Fixing q1 must prevent all rigid-body modes R, or
+/// C22 is singular: rank R_1 = n_free. Coordinates without another reason that this rank requires get it as their
+/// reason.
 /// @throws std::invalid_argument if the frame is not reduced
 Partition partition_of(const Scene &scene, const coupling::Machine &machine,
                        const std::vector<coupling::Signal> &signals);

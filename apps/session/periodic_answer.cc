@@ -103,7 +103,7 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
   const std::string why = coupling::shooting_method().refuses(problem);
   if (!why.empty())
     return {&coupling::settling_method(), why};
-  constexpr int few_coordinates = 3; // up to which all solutions are looked for unasked
+  constexpr int few_coordinates = 3; // up to which all solutions are searched by default
   if (problem.turn.size() <= few_coordinates && !problem.period_is_unknown())
     return {&coupling::minimising_method(), "few coordinates: all solutions are looked for"};
   return {&coupling::shooting_method(), "it takes few periods, and tells the stability"};
@@ -155,7 +155,7 @@ coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicReq
   if (request.tolerance > 0.)
     options.tolerance = request.tolerance;
   options.integration = periodic_integration(scene, machine);
-  // Steps of other methods leave more than those of exact propagation.
+  // Other methods leave larger residuals than exact propagation.
   if (!(request.tolerance > 0.) && options.integration.method != coupling::PeriodicOptions().integration.method)
     options.tolerance = std::max(1e-8, 10. * options.integration.tolerance);
   return options;

@@ -13,51 +13,52 @@
 namespace gestell::apps
 {
 
-/// A way to periodic motions, and why this one.
+/// A method for periodic solutions, and the reason for its choice.
 struct ChosenMethod
 {
   const coupling::PeriodicMethod *method = nullptr;
   std::string                     reason;
 };
 
-/// By its name; none: the first that can treat the machine, all solutions of small ones.
-/// @throws std::invalid_argument where it cannot, with what serves instead
+/// The method of this name; without a name the first one that can treat the machine (for small machines one that finds
+/// all solutions).
+/// @throws std::invalid_argument if it cannot treat the machine, with a method that can
 ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string &name);
 
-/// That every option is taken by the method, or by the one it is checked by.
+/// Checks that the method, or the one that verifies it, accepts every option.
 /// @throws std::invalid_argument
 void check_options(const PeriodicRequest &request, const coupling::PeriodicMethod &method);
 
-/// What methods obey; a machine that exact propagation cannot carry is integrated as [run] says.
+/// Options of the methods; a machine that exact propagation cannot treat is integrated as in [run].
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
                                            const coupling::Machine &machine);
 
-/// The motion as one of its own period, computed anew, if it repeats earlier than after `solution.ratio` periods of the
+/// The solution over its own period, recomputed, if it repeats earlier than after `solution.ratio` periods of the
 /// excitation.
 coupling::PeriodicSolution of_own_period(const coupling::PeriodicMethod   &method,
                                          const coupling::PeriodicProblem  &problem,
                                          const coupling::PeriodicSolution &solution,
                                          const coupling::PeriodicOptions  &options);
 
-/// What is kept of a run over a period besides the signals.
+/// Data stored from a run over a period in addition to the signals.
 enum class OrbitRun
 {
   signals,
-  pictures ///< and the energy balance
+  pictures ///< with the energy balance
 };
 
-/// One period of a solution as a run of the machine, begun on it.
+/// One period of a solution as a run of the machine that starts on it.
 coupling::RunResult orbit_run(coupling::Machine &machine, const coupling::PeriodicSolution &solution,
                               const std::vector<coupling::Signal> &signals, int rows,
                               OrbitRun keep = OrbitRun::pictures);
 
 /// The solution with its signals: extremes, harmonics, rows.
-/// @param run  becomes the run of one period that tells them; left as it is of a motion that is a series
+/// @param run  receives the run of one period with these signals; unchanged if the solution is given as a series
 PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
                        const coupling::PeriodicSolution &solution, const std::vector<coupling::Signal> &signals,
                        int rows, std::optional<coupling::RunResult> *run = nullptr);
 
-/// How far two solutions are apart in their signals.
+/// Distance between two solutions in their signals.
 PeriodicCheck compared(const PeriodicEntry &first, const PeriodicEntry &second, const std::string &method);
 
 } // namespace gestell::apps

@@ -41,7 +41,7 @@ std::vector<coupling::Branch> new_branches(const SceneFamily &family, coupling::
   return follow_new_branches(*equations, special, along, progress);
 }
 
-/// Whether a solution lies on a branch that was followed already.
+/// Whether a solution is on a branch that has been followed already.
 bool known(const PeriodicResult &result, const PeriodicSolution &solution, double parameter, double range)
 {
   const double omega = 2. * M_PI / solution.period, size = omega * solution.q.norm() + solution.v.norm();
@@ -79,7 +79,7 @@ private:
   std::vector<coupling::SpecialMotion> points_;
 };
 
-/// Why a branch ended; where a load comes to stand just beyond its last motion, that.
+/// Why a branch ended; if the frequency of a load becomes zero just beyond its last solution, this is the reason.
 std::string end_of(const coupling::Branch &branch, const SceneFamily &family, double step)
 {
   if (!branch.failed)
@@ -159,7 +159,7 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
     if (branch.failed)
       result.failure = result.notes.back();
   };
-  // What leaves a branch, and what leaves that one.
+  // Branches that bifurcate from a branch, and from those.
   LeftBranches                                                  left(std::abs(along.to - along.from));
   const std::function<void(const coupling::Branch &, int, int)> shed =
       [&](const coupling::Branch &branch, int repeats, int generation)

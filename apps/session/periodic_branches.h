@@ -9,11 +9,11 @@ namespace gestell::apps
 {
 
 /**
- * Follows the branches that the solutions begin (follow_branch()), and those of doubled period that they shed; all
- * points, numbered by branches, and special points into `result`.
+ * Continues the branches that start at the solutions (follow_branch()), and the period-doubled branches that bifurcate
+ * from them.  All points, numbered by branch, and special points are added to `result`.
  *
- * @param progress  share of the range
- * @param stop      ends the branch under way; what is there is kept
+ * @param progress  completed share of the range
+ * @param stop      ends the current branch; its points so far are retained
  */
 void follow_branches(const SceneFamily &family, const std::vector<coupling::PeriodicSolution> &solutions,
                      const coupling::PeriodicOptions &options, const PeriodicRequest &request,

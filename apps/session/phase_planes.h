@@ -10,11 +10,11 @@
 namespace gestell::apps
 {
 
-/// The rate of a signal, if it follows exactly from q and q': of displacements, angles and measures.
+/// The rate of a signal, if it follows exactly from q and q': for displacements, angles and measures.
 std::optional<coupling::Signal> rate_of(const coupling::Signal &signal);
 
-/// The first solutions in the plane of each signal whose rate is known exactly; a few of them.
-/// @throws coupling::ConvergenceFailure where a motion cannot be traced
+/// The first solutions in the plane of each signal whose rate is known exactly; only a few solutions.
+/// @throws coupling::ConvergenceFailure if a solution cannot be integrated
 std::vector<PhasePlane> phase_planes(coupling::Machine &machine, const coupling::PeriodicProblem &problem,
                                      const std::vector<PeriodicEntry>    &entries,
                                      const std::vector<coupling::Signal> &signals);

@@ -12,8 +12,8 @@ namespace gestell::apps
 class PhaseTimes
 {
 public:
-  void begin(const std::string &phase); ///< or goes on with it
-  void end();                           ///< of the current one
+  void begin(const std::string &phase); ///< starts or continues a phase
+  void end();                           ///< ends the current one
 
   const std::vector<std::pair<std::string, double>> &seconds() const { return phases_; }
 

@@ -145,7 +145,7 @@ PreparedMachine without_warnings(const Scene &scene, const coupling::Progress &p
   return on_full_frame(scene, progress);
 }
 
-/// q of the configuration that modes are asked for, of the whole machine.
+/// Configuration q of the whole machine for the modes.
 Eigen::VectorXd whole_configuration(const Scene &scene, PreparedMachine &prepared)
 {
   const Eigen::VectorXd q = modes_configuration(scene, prepared.small());
@@ -155,7 +155,7 @@ Eigen::VectorXd whole_configuration(const Scene &scene, PreparedMachine &prepare
   return coupling::expand_statically(prepared.machine, *prepared.companion, at).q;
 }
 
-/// The same machine in the modes that the scene asks for; itself it becomes the companion, unless it has one.
+/// The same machine in the modes requested by the scene; the original becomes its companion, unless it has one.
 PreparedMachine in_modes(const Scene &scene, PreparedMachine physical)
 {
   SuperposedMachine modes  = superposed(scene, physical.machine, whole_configuration(scene, physical));
@@ -323,7 +323,7 @@ void add_modes(const Scene &scene, coupling::Machine &machine, const Eigen::Vect
   add_poles(scene, machine, q, how, result);
 }
 
-/// What there is none of, or nothing where the work was done.
+/// Returns the message of a failure, or an empty string if the work was done.
 template <typename Work>
 std::string none_by(const Work &work)
 {
@@ -342,8 +342,8 @@ std::string none_by(const Work &work)
   }
 }
 
-/// Modes that stand beside another answer: where a law has no stiffness in the configuration of the modes, those of the
-/// start; where there are none either, the answer goes without them.
+/// Modes in addition to another answer.  If a law has no stiffness in the configuration of the modes, they are computed
+/// at the start; if that also fails, the answer has no modes.
 void add_modes_beside(const Scene &scene, coupling::Machine &machine, const coupling::Linearisation &how,
                       Result &result)
 {
@@ -366,7 +366,7 @@ void add_modes_beside(const Scene &scene, coupling::Machine &machine, const coup
 }
 
 /// Why there are no modes; empty: there are.
-/// @throws std::invalid_argument if memory does not hold what they take
+/// @throws std::invalid_argument if there is not enough memory for them
 std::string without_modes(const Scene &scene, const std::string &command, const coupling::Machine &machine)
 {
   const int n = machine.size();
@@ -375,14 +375,15 @@ std::string without_modes(const Scene &scene, const std::string &command, const 
         "modes.number = 0 leaves out what `gestell modes` tells; give it --set modes.number=20");
   if (scene.modes.number == 0)
     return "not asked for";
-  // Coordinates of a machine of which a run tells modes unasked: they take the cube of that number, a motion much less.
+  // Largest number of coordinates for which a run computes modes without a request: their cost grows with the third
+  // power, that of a motion much less.
   constexpr int most_coordinates = 600;
   if (command == "run" && n > most_coordinates)
     return "of " + std::to_string(n) + " coordinates, more than " + std::to_string(most_coordinates) +
            ", modes take longer than most runs (the cube of their number) and are left out of the report; `gestell "
            "modes` tells them, modes.number = 0 leaves this note out";
-  // Dense matrices [n x n] that modes of n coordinates have at once: M, B, K, Z, those of the free motions, the modes,
-  // and the state [2n x 2n] with its vectors, twice as wide as they are complex.
+  // Number of dense matrices [n x n] allocated at once for the modes of n coordinates: M, B, K, Z, those of the free
+  // motions, the modes, and the state matrix [2n x 2n] with its complex vectors.
   constexpr double matrices_of_modes = 24.;
   fem::require_available("modes: dense matrices of " + std::to_string(n) + " coordinates",
                          matrices_of_modes * 8. * n * n,

@@ -15,7 +15,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Holds the lock while it lives; where its file cannot be made, processes do not wait for each other.
+/// Holds the lock during its lifetime; if its file cannot be created, processes do not wait for each other.
 class FileLock
 {
 public:
@@ -40,19 +40,19 @@ private:
   int file_ = -1;
 };
 
-/// "" without a cache.
+/// Lock file of a frame; empty without a cache.
 std::string lock_file(const std::string &key)
 {
   const std::string file = coupling::cache_file(key);
   return file.empty() ? "" : file + ".lock";
 }
 
-/// A file and its state: another one written in its place, or into it, has another.
+/// Key of a file in its present state: a file that was replaced or changed has another key.
 std::string key_of_file(const std::string &path)
 {
   struct stat state = {};
   if (stat(path.c_str(), &state) != 0)
-    return path; // that it cannot be read is told by its reader
+    return path; // its reader reports that it cannot be read
   std::string key = path;
   for (const auto number : {long(state.st_dev), long(state.st_ino), long(state.st_size), long(state.st_mtim.tv_sec),
                             long(state.st_mtim.tv_nsec), long(state.st_ctim.tv_sec), long(state.st_ctim.tv_nsec)})

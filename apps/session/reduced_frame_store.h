@@ -10,13 +10,13 @@
 namespace gestell::apps
 {
 
-/// Whether the scene's machine is built on a reduced frame, and on that alone.
+/// Whether the scene's machine is built on a reduced frame only.
 bool on_reduced_frame(const Scene &scene);
 
-/// Whether frames reduced for two scenes are the same.
+/// Whether the reduced frames of two scenes are equal.
 bool same_frame(const Scene &a, const Scene &b);
 
-/// All that a machine needs of its frame.
+/// The frame as a machine needs it, without data for pictures and reports.
 coupling::ReducedFrame without_pictures(coupling::ReducedFrame frame);
 
 /// A scene with its machine.
@@ -26,17 +26,17 @@ struct PreparedScene
   std::unique_ptr<PreparedMachine> prepared;
 };
 
-/// @param frame  null: made as the scene says
+/// @param frame  reduced frame to use; null: that of the scene
 PreparedScene prepared_scene(Scene scene, const coupling::ReducedFrame *frame);
 
 /**
- * Reduced frames that runs share: the few used last are kept in memory, all in the cache of frames.  Where several
- * processes need the same frame one of them reduces it and the others wait.
+ * Reduced frames that runs share: the last used ones are kept in memory, all of them in the frame cache.  If several
+ * processes need the same frame, one of them reduces it and the others wait.
  */
 class ReducedFrameStore
 {
 public:
-  /// @param drawn  results of runs are written: frames keep what is drawn of them
+  /// @param drawn  results of runs are written, so that frames keep the data for pictures
   explicit ReducedFrameStore(bool drawn) : drawn_(drawn) {}
 
   /// Null for a scene that is not on_reduced_frame().  A frame file that was replaced is read again.
@@ -46,7 +46,7 @@ private:
   using Kept = std::pair<std::string, std::shared_ptr<const coupling::ReducedFrame>>;
 
   bool            drawn_;
-  std::list<Kept> kept_; ///< the one used last first
+  std::list<Kept> kept_; ///< the last used one first
 };
 
 } // namespace gestell::apps

@@ -20,9 +20,9 @@ namespace
 using coupling::BodyKind;
 using Eigen::VectorXd;
 
-constexpr double equal_speeds = 1e-2; ///< of speeds at the start, which elastic shafts let differ a little
+constexpr double equal_speeds = 1e-2; ///< relative difference of speeds by elastic shafts at the start
 
-/// Angles [rad] that may turn round and move at the start: of rotors, and of planar bodies, which may swing as well.
+/// Angles [rad] that may rotate and move initially: of rotors, and of planar bodies, which may also oscillate.
 struct MovingAngles
 {
   std::vector<int> rotors, planar;
@@ -36,10 +36,10 @@ struct MovingAngles
         planar.push_back(body.coordinate + 2);
   }
 
-  /// Planar bodies that would not come round in many runs.
+  /// Excludes planar bodies that would need many runs for a revolution.
   void leave_out_drifting(const coupling::InitialState &start, double run)
   {
-    constexpr double drifting_runs = 100.; // in which what turns comes round at least once
+    constexpr double drifting_runs = 100.; // number of runs in which a rotating body completes at least one revolution
     const auto       drifts        = [&](int i) { return std::abs(start.v[i]) * drifting_runs * run < 2. * M_PI; };
     planar.erase(std::remove_if(planar.begin(), planar.end(), drifts), planar.end());
   }
@@ -65,7 +65,7 @@ double common_period_of(const std::vector<double> &omega, const Scene &scene)
   throw std::invalid_argument(text.str());
 }
 
-/// Angles that may turn, and their speeds [rad/s].
+/// Angles that may rotate, and their speeds [rad/s].
 struct TurningAngles
 {
   std::vector<int> angles;
@@ -73,7 +73,7 @@ struct TurningAngles
   double           tolerance = equal_speeds; ///< of the speeds
 };
 
-/// Rotors turn with the speeds they have at the start.  Whether planar bodies turn or swing shows in some turns.
+/// Rotors have their initial speeds.  A few revolutions show whether planar bodies rotate or oscillate.
 TurningAngles turning_angles(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
                              const std::atomic<bool> *stop)
 {
@@ -90,7 +90,7 @@ TurningAngles turning_angles(const Scene &scene, coupling::Machine &machine, con
   for (const auto *group : {&moving.rotors, &moving.planar})
     for (const int i : *group)
       fastest = std::max(fastest, std::abs(start.v[i]));
-  constexpr double turns_tried = 3.; // of the fastest angle: linkages take two turns at most
+  constexpr double turns_tried = 3.; // revolutions of the fastest angle: linkages need two at most
   const double     time        = turns_tried * 2. * M_PI / fastest;
   const VectorXd   way =
       coupling::advance_of(machine, periodic_integration(scene, machine), {start.q, start.v, 0.}, start.t, time, stop);
@@ -99,7 +99,7 @@ TurningAngles turning_angles(const Scene &scene, coupling::Machine &machine, con
     {
       turning.angles.push_back(i);
       turning.speed[i]             = way[i] / time;
-      constexpr double equal_turns = 5e-2; // of speeds over `turns_tried`, which linkages let vary within a turn
+      constexpr double equal_turns = 5e-2; // of speeds over `turns_tried`; linkages vary within a revolution
       turning.tolerance            = equal_turns;
     }
   return turning;
@@ -110,7 +110,7 @@ VectorXd of_angles(const VectorXd &x, const std::vector<int> &angles)
   return x(angles);
 }
 
-/// Why rotors that move at the start are taken for swinging ones: something depends on their angles without a period.
+/// Reason why rotors that move at the start count as oscillating: something depends on their angles without a period.
 std::string held_angles(const coupling::AngleInvariance &invariance, const VectorXd &speed,
                         const coupling::Machine &machine)
 {
@@ -139,8 +139,8 @@ std::string joined(const std::vector<std::string> &names)
   return all;
 }
 
-/// How many periods of the loads a given period is; 1 without loads.
-/// @throws std::invalid_argument where it is no whole number of them
+/// Number of load periods in a given period; 1 without loads.
+/// @throws std::invalid_argument if it is not an integer
 int periods_of_loads(double period, const std::vector<double> &omega, const Scene &scene)
 {
   if (omega.empty())
@@ -200,8 +200,8 @@ void oscillate_freely(const Scene &scene, coupling::Machine &machine, RepeatingM
       (own.pushed ? " (it rested at the start, and was pushed)" : "");
 }
 
-/// How far what turns goes in the period, or the period in which it comes round.
-/// @return why what moves at the start does not turn; empty: all does
+/// Computes the angle that each rotating coordinate covers in the period, or the period of a revolution.
+/// @return why a coordinate that moves initially does not rotate; empty: all do
 std::string turn(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
                  RepeatingMachine &repeating)
 {

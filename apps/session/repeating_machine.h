@@ -12,33 +12,33 @@
 namespace gestell::apps
 {
 
-/// What of a machine is to repeat, and why.
+/// The periodicity conditions of a machine, and their origin.
 struct RepeatingMachine
 {
   coupling::PeriodicProblem problem;
-  coupling::PeriodicGuess   guess;  ///< where the search begins
-  std::string               reason; ///< where the period comes from, for people
+  coupling::PeriodicGuess   guess;  ///< initial guess of the search
+  std::string               reason; ///< origin of the period, for people
 };
 
 /**
- * The period of a machine and what turns in it.
+ * The period of a machine and its rotating coordinates.
  *
- * Loads that oscillate, and nothing that turns freely: the least common period of their frequencies.  Angles that turn
- * at the start without stiffness against it, driven by a motor: they come round after whole turns, in a period that is
- * unknown; the slowest of them keeps its angle at the begin.  Planar bodies are followed for some turns, to see whether
- * they turn or swing.  A machine that nothing drives is followed until its oscillation keeps its size.
+ * With oscillating loads and no free rotation, it is the least common period of their frequencies.  Angles that a motor
+ * drives, that rotate initially and have no stiffness, advance by whole revolutions in an unknown period; the initial
+ * angle of the slowest one is prescribed.  Planar bodies are simulated for a few revolutions to decide whether they
+ * rotate or oscillate.  A machine without a drive is simulated until the amplitude of its oscillation is constant.
  *
- * @throws std::invalid_argument with the frequencies that have no common period, the elements that tell of the time
- * without a period being known, or where nothing drives the machine and it comes to rest
+ * @throws std::invalid_argument with the frequencies that have no common period, with the elements that depend on time
+ * in an unknown period, or if a machine without a drive comes to rest
  */
 RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
                                    const PeriodicRequest &request, const std::atomic<bool> *stop);
 
-/// Integration of its periods: exact propagation, or that of [run] where it cannot carry the machine.
-/// @throws std::invalid_argument if there is no [run] then
+/// Integration method over a period: exact propagation, or that of [run] if exact propagation cannot treat the machine.
+/// @throws std::invalid_argument if [run] is missing in the second case
 coupling::MethodOptions periodic_integration(const Scene &scene, const coupling::Machine &machine);
 
-/// Least common period [s] of all loads that oscillate; 0: none does.
+/// Least common period [s] of all oscillating loads; 0: there are none.
 /// @throws std::invalid_argument with the frequencies if they have none
 double load_period(const Scene &scene, const coupling::Machine &machine);
 

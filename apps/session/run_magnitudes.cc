@@ -20,8 +20,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double most_twist = 0.5;       ///< [rad] of a clutch, shaft or contact: highly elastic couplings stand 0.3
-constexpr double most_turns = 4. * M_PI; ///< [rad] of a torsion spring on the ground: two turns
+constexpr double most_twist = 0.5;       ///< [rad] of a clutch, shaft or contact: highly elastic couplings allow 0.3
+constexpr double most_turns = 4. * M_PI; ///< [rad] of a torsion spring to the ground: two revolutions
 
 using coupling::ElementPlacement;
 using mechanism::KlossMotor;
@@ -44,7 +44,7 @@ double breakdown_slip(const ElementPlacement &placement)
   return motor ? motor->parameters().breakdown_slip : 0.;
 }
 
-/// A characteristic that is given as a whole may be that of anything.
+/// A general characteristic may have any meaning.
 bool is_characteristic(const ElementPlacement &placement)
 {
   return coupling::law_of<mechanism::FormulaForce>(placement) || coupling::law_of<mechanism::TableForce>(placement) ||
@@ -80,7 +80,7 @@ RunMagnitudes::RunMagnitudes(const Scene &scene, const coupling::Machine &machin
     signal = machine.signal(signal.name, signal.name);
 }
 
-/// The signal is looked up when all are known.
+/// The index of the signal is found when all signals are known.
 void RunMagnitudes::watch(Kind kind, const std::string &object, const std::string &path, double scale)
 {
   watched_.push_back({kind, object, scale});
@@ -148,7 +148,7 @@ void RunMagnitudes::watch_frame(const coupling::MachineModel &small)
         watch(Kind::yielding, "frame." + interface.name, motions[d]);
 }
 
-/// Of a rod its own length, of all else that of the machine.
+/// Length of an element: for a rod its own, for others the size of the machine.
 double RunMagnitudes::size_of(const std::string &element) const
 {
   for (const coupling::DrawnRod &rod : scene_.rods)
@@ -182,7 +182,7 @@ std::optional<UnexpectedValue> RunMagnitudes::judged_slip(const Watched         
   const bool       turns      = std::abs(1. - value.first) > standstill;
   if (turns && std::abs(value.first) > most)
     return unexpected("at the start", value.first, "1 at standstill, or ");
-  // A start-up that is under way is no mistake.
+  // A start-up that is still in progress is not a mistake.
   const bool starting_up = value.last < value.first - standstill && value.last > -most;
   if (std::abs(value.last) > most && !starting_up)
     return unexpected("at the end", value.last, "");

@@ -13,27 +13,27 @@ namespace gestell::apps
 {
 
 /**
- * Compares what a run did with what the bodies and elements of a machine can do: elastic deformation of elements,
- * travel of springs, contacts that never acted, slip of motors, rim speeds, speeds and ways of bodies.
- * Ranges with their reasons: docs/scene/magnitudes.md.
+ * Compares the results of a run with plausible ranges: elastic deformation of elements, travel of springs, contacts
+ * that never closed, slip of motors, rim speeds, speeds and displacements of bodies. Ranges with their reasons:
+ * docs/scene/magnitudes.md.
  */
 class RunMagnitudes
 {
 public:
-  /// @param machine  as it runs
-  /// @param small    the same of few coordinates, whose masses and stiffness are asked for
+  /// @param machine  the simulated machine
+  /// @param small    its companion with few coordinates, from which masses and stiffnesses are taken
   RunMagnitudes(const Scene &scene, const coupling::Machine &machine, const coupling::Machine &small);
 
-  coupling::WatchedSignals &signals() { return signals_; } ///< to be followed by a run
+  coupling::WatchedSignals &signals() { return signals_; } ///< the run must record these
 
-  /// After that run: what is out of its range.
+  /// After that run: values outside their range.
   std::vector<UnexpectedValue> unexpected(const coupling::RunResult &run) const;
 
 private:
   enum class Kind
   {
     deformation, ///< force; scale: stiffness
-    travel,      ///< displacement of a spring; scale: what is too far
+    travel,      ///< displacement of a spring; scale: limit of the plausible range
     contact,     ///< force
     slip,        ///< scale: breakdown slip
     turning,     ///< speed of a rotor; scale: radius

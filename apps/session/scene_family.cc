@@ -19,7 +19,7 @@ namespace gestell::apps
 namespace
 {
 
-/// A number and the unit behind it.
+/// Splits a number from its unit.
 double split(const std::string &option, const std::string &text, std::string &unit)
 {
   double            value = 0.;
@@ -31,7 +31,7 @@ double split(const std::string &option, const std::string &text, std::string &un
   return value;
 }
 
-/// Of the loads on the frame and on bodies [rad/s]; infinite where none oscillates.
+/// Lowest frequency of the loads on the frame and on bodies [rad/s]; infinite if none oscillates.
 double lowest_frequency(const Scene &scene)
 {
   double lowest = std::numeric_limits<double>::infinity();
@@ -41,7 +41,7 @@ double lowest_frequency(const Scene &scene)
   return lowest;
 }
 
-/// Tables of a scene on which no motion depends, and what they hold.
+/// Tables of a scene that do not affect the motion, with their contents.
 const std::map<std::string, std::string> &without_effect()
 {
   static const std::map<std::string, std::string> tables = {{"name", "the name of the scene"},

@@ -12,38 +12,38 @@
 namespace gestell::apps
 {
 
-/// A machine at one value of an entry of its scene.
+/// A machine at one value of a scene key.
 struct MachineMember : PreparedScene
 {
   coupling::PeriodicProblem problem;
 };
 
-/// Refuses to follow a parameter that the scene does not have: an override would make a new one, that nothing reads;
-/// and entries that do not change the equations of motion, such as those of [run] and [output].
-/// @throws std::invalid_argument: which entry, what it is, and which serve
+/// Rejects a parameter that the scene does not have, because an override would only create an unused key, and keys that
+/// do not change the equations of motion, such as those of [run] and [output].
+/// @throws std::invalid_argument with the key, its role, and suitable keys
 void require_parameter(const Variant &file, const std::string &key);
 
-/// A scene over the values of one entry, on the frame that was reduced once.
+/// A scene at varying values of one key, on a frame that is reduced only once.
 class SceneFamily
 {
 public:
-  /// @throws std::invalid_argument where the ends are no numbers of one unit, the key is unknown, or the entry changes
-  /// the frame itself, with what that would cost
+  /// @throws std::invalid_argument if the limits are not numbers of one unit, the key is unknown, or the key changes
+  ///   the frame itself (with the cost of that)
   SceneFamily(Variant file, PreparedMachine &machine, const PeriodicRequest &request,
               const coupling::PeriodicProblem &like);
 
   double             from() const { return from_; }
   double             to() const { return to_; }
   const std::string &unit() const { return unit_; }
-  int                ratio() const { return like_.ratio; } ///< periods of the excitation in that of a member
+  int                ratio() const { return like_.ratio; } ///< periods of the excitation in the period of a member
 
-  /// The machine at a value; what is to repeat is that of `like`, with the period of its own loads.
+  /// The machine at a value, with the periodicity conditions of `like` and the period of its own loads.
   std::shared_ptr<MachineMember> member(double value) const;
   coupling::ProblemFamily        problems() const;
 
-  /// "the period becomes infinite at parameters.n = 0": where between two values the frequency of a load falls to zero,
-  /// beyond which there is no scene; empty: it does not.
-  /// @param within  there is a scene at this value
+  /// "the period becomes infinite at parameters.n = 0" if the frequency of a load falls to zero between the two values,
+  /// so that there is no scene beyond; else empty.
+  /// @param within  a value with a valid scene
   std::string standstill(double within, double beyond) const;
 
 private:

@@ -36,7 +36,7 @@ void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &r
       state = prepared.project(state);
 }
 
-/// On the periodic motion that the state leads to.
+/// Moves the state onto the periodic motion to which it leads.
 void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomic<bool> *stop,
                  coupling::InitialState &state)
 {
@@ -53,7 +53,7 @@ void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomi
   state.still   = coupling::still_speed(prepared.machine, state.q, state.v, solution->period);
 }
 
-/// The state at the begin of the run, or why there is none.
+/// The state at the start of the run, or the reason why there is none.
 coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared, const std::atomic<bool> *stop,
                                    std::string &failure)
 {
@@ -105,7 +105,7 @@ void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeatin
     }
 }
 
-/// By the method; none where it fails, which `found` then tells.
+/// Solutions of the method; none if it fails, with the reason in `found`.
 std::vector<coupling::PeriodicSolution> searched(const ChosenMethod &chosen, const coupling::PeriodicProblem &problem,
                                                  const coupling::PeriodicGuess   &guess,
                                                  const coupling::PeriodicOptions &options, PeriodicResult &found)
@@ -281,7 +281,7 @@ Result Session::periodic(const PeriodicRequest &request)
         "--along: a branch follows coordinates, and the modes of method = \"modal\" change with " + request.along +
         "; take reduction.method = \"craig-bampton\"");
   require_parameter(variant_, request.along);
-  // Branches begin where the parameter does.
+  // Branches start at the first value of the parameter.
   begin_ = std::make_unique<Session>(variant_.with(request.along + '=' + request.from), watch_);
   return begin_->periodic_here(request);
 }

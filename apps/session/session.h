@@ -18,11 +18,11 @@
 namespace gestell::apps
 {
 
-/// Receives the progress of a session, and may interrupt it.
+/// Callback for the progress of a session, and a flag to interrupt it.
 struct Watch
 {
-  coupling::Progress       progress{};             ///< phase, and the share of it that is done; negative: unknown
-  const std::atomic<bool> *interruption = nullptr; ///< ends a run, which keeps what it has; null: nothing does
+  coupling::Progress       progress{};             ///< phase, and its completed share; negative: unknown
+  const std::atomic<bool> *interruption = nullptr; ///< ends a run, which retains its results; null: no interruption
 };
 
 /// The reduced frame of a scene.
@@ -32,13 +32,13 @@ struct FrameAnswer : coupling::CachedFrame
 };
 
 /**
- * A scene that has been read, and what can be computed with it, as values: no terminal, no files of results.
+ * A scene that has been read, and the computations with it. Results are values: nothing is printed or written to files.
  *
  *     Session session("press.toml", {"run.step=1e-5"});
  *     const Result run = session.run();
  *
- * Wrong input throws std::invalid_argument with its place, a frame or modes that cannot be found ConvergenceFailure; a
- * run that fails or is interrupted is a result, with the reason in it.
+ * Wrong input throws std::invalid_argument with its location; a frame or modes that cannot be computed throw
+ * ConvergenceFailure.  A run that fails or is interrupted returns a result with the reason.
  */
 class Session
 {
@@ -47,49 +47,49 @@ public:
   explicit Session(const std::string &path, const std::vector<std::string> &overrides = {},
                    fem::Scripts scripts = fem::Scripts::harmless, const Watch &watch = {});
   explicit Session(Variant variant, const Watch &watch = {});
-  /// @param scene  that of the variant, which may compute less
+  /// @param scene  scene of the variant, possibly with fewer outputs
   Session(Variant variant, Scene scene, const Watch &watch);
 
   const Scene             &scene() const { return scene_; }
-  const Variant           &variant() const { return variant_; } ///< to vary its entries further
+  const Variant           &variant() const { return variant_; } ///< to vary its keys further
   const std::atomic<bool> *interruption() const { return watch_.interruption; }
-  /// Another scene, as in its file, with the progress and the interruption of this one, which must outlive it.
+  /// Another scene, read from its file, with the progress and the interruption flag of this session (must outlive it).
   std::unique_ptr<Session> beside(const std::string &file) const;
 
-  void check();     ///< what can be known without computing
-  void check_run(); ///< that it says how to run, too
+  void check();     ///< checks that need no computation
+  void check_run(); ///< also checks [run]
 
-  /// Its machine, made at the first call: the frame is taken from the cache or reduced and kept there.
+  /// The machine of the scene, built at the first call: the frame is read from the cache, or reduced and stored there.
   PreparedMachine &machine();
-  /// The machine on this frame instead, of a finer mesh.
+  /// Replaces the machine by one on this frame, for example of a finer mesh.
   void use_frame(const coupling::ReducedFrame &frame);
 
-  /// The reduced frame alone; the scene's frame must be one that is reduced (frame_path()).
+  /// Only the reduced frame; the scene's frame must be one that is reduced (frame_path()).
   FrameAnswer reduced_frame();
-  /// Why the coordinates of its interfaces are kept.
+  /// Reasons why the interface coordinates are retained.
   Partition partition();
   /// Modes of the frame and of the coupled machine.
   Result modes(coupling::GeometricStiffness geometric = coupling::GeometricStiffness::included);
-  /// Model and modes, as of every command, with what `add` finds of machine().
+  /// Result of a command: model and modes, extended by `add` from machine().
   Result answered(const std::string &command, const std::function<void(Result &)> &add,
                   coupling::GeometricStiffness geometric = coupling::GeometricStiffness::included);
-  /// From here on runs keep the states around the peaks of forces: pictures become dense around the main one, and
-  /// add_story() tells which modes make them.  Takes some of their time.
+  /// Makes later runs keep the states around the peaks of forces: pictures become dense around the main peak, and
+  /// add_story() determines the modes in the peaks.  Costs some run time.
   void keep_swings() { swings_ = true; }
-  /// For the run to come.
+  /// For the next run.
   void keep_checkpoints(const CheckpointRequest &request) { checkpoints_ = request; }
-  /// The scene simulated in time, with modes, stresses and warnings.
-  /// @throws std::invalid_argument as read_checkpoint()
-  /// @param parts  what is found of it besides
+  /// Time integration of the scene, with modes, stresses and warnings.
+  /// @throws std::invalid_argument as read_checkpoint() does
+  /// @param parts  additional answers of the run
   Result run(const RunParts &parts = {});
 
-  /// Periodic motions of the scene's machine, with their stability; the first stable one as a run of one period.
+  /// Periodic solutions of the scene's machine, with their stability; `run` is a period of the first stable one.
   Result periodic(const PeriodicRequest &request = {});
 
-  /// Of all that was computed so far, by phase.
+  /// Wall time [s] of all computations so far, by phase.
   const std::vector<std::pair<std::string, double>> &wall_seconds() const { return times_.seconds(); }
 
-  /// Times a phase and tells it to the watch; for what is computed beside the session, which must outlive it.
+  /// Times a phase and reports it to the watch; for computations outside the session, which must outlive it.
   coupling::Progress progress();
 
 private:
@@ -103,10 +103,10 @@ private:
   Scene                            scene_;
   Watch                            watch_;
   PhaseTimes                       times_;
-  std::shared_ptr<PreparedMachine> machine_; ///< shared with results, which tell its forces when they are written
+  std::shared_ptr<PreparedMachine> machine_; ///< shared with results, which compute its forces when they are written
   bool                             checked_ = false, swings_ = false;
   std::optional<CheckpointRequest> checkpoints_;
-  std::unique_ptr<Session>         begin_; ///< of a branch: results draw its machine
+  std::unique_ptr<Session>         begin_; ///< start of a branch: results draw its machine
 };
 
 } // namespace gestell::apps

@@ -11,11 +11,11 @@
 namespace gestell::apps
 {
 
-/// @throws std::invalid_argument if the scene asks for stresses and the frame (null: none) does not know them.
+/// @throws std::invalid_argument if the scene requests stresses and the frame (null: none) has no stress recovery.
 void require_stress(const Scene &scene, const coupling::ReducedFrame *frame);
 
-/// Stresses at the instants [output.stress] asks for, from the states the run kept.  What the run did not reach is told
-/// in `warnings`.
+/// Stresses at the instants requested by [output.stress], from the states that the run kept.  Requested instants that
+/// the run did not reach are listed in `warnings`.
 StressResult stress_answer(const Scene &scene, const coupling::ReducedFrame &frame, const coupling::RunResult &run,
                            std::vector<std::string> &warnings);
 

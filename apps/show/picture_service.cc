@@ -91,7 +91,7 @@ std::string chunk(const std::string &kind, const std::string &data)
   return big_endian(static_cast<std::uint32_t>(data.size())) + kind + data + big_endian(checksum(kind + data));
 }
 
-/// How a frame is shown: whole, 1/rate s, in place of the one before.
+/// Adds the display data of a frame: whole image, duration 1/rate s, replaces the previous frame.
 void AnimatedPng::add_control(const std::string &head)
 {
   frames_ += chunk("fcTL", big_endian(sequence_++) + head.substr(0, 8) + big_endian(0) + big_endian(0) +
@@ -220,7 +220,7 @@ public:
   }
 
 private:
-  /// The writer does not look at what the disk says: a probe beside the film does.
+  /// The writer ignores errors of the disk, so that a probe file next to the film is written.
   void require_written()
   {
     if (writer_->GetError() || probe(folder_.path()))
@@ -253,7 +253,7 @@ public:
     {
       const Parts parts = read_parts(frame);
       enclose(parts, box);
-      // of the frame; of a mode, which has no size, of all that moves
+      // of the frame only; for a mode, whose size is arbitrary, of all parts
       most = std::max(most, largest_displacement(series.swings ? parts : Parts{parts.front()}));
     }
     if (series.rests)

@@ -39,7 +39,7 @@ namespace
 
 constexpr const char *displacement = "displacement [m]", *stress = "von Mises stress [Pa]";
 
-/// From 0 to `most`; of vectors their length counts.
+/// Colours from 0 to `most`; vectors are coloured by magnitude.
 vtkSmartPointer<vtkLookupTable> field_colours(double most)
 {
   vtkSmartPointer<vtkLookupTable> table = vtkSmartPointer<vtkLookupTable>::New();
@@ -68,7 +68,7 @@ vtkSmartPointer<vtkLookupTable> bodies_table(int n)
   return table;
 }
 
-/// Of a frame under stress the largest value away from rigid surfaces, which ends the colours; 0: of another.
+/// Upper end of the stress colours: the largest value away from rigid surfaces; 0 for parts without stress.
 double largest_stress(vtkPolyData *part)
 {
   vtkDataArray *most = part->GetFieldData()->GetArray("largest stress [Pa]");

@@ -19,30 +19,30 @@ namespace gestell::apps
 /// Read parts of one frame.
 using Parts = std::vector<vtkSmartPointer<vtkPolyData>>;
 
-/// @throws std::invalid_argument of a file that is broken or has no points
+/// @throws std::invalid_argument for a broken file, or one without points
 Parts read_parts(const PictureFrame &frame);
 
 /// Largest displacement of these parts [m] and the box around their points.
 double largest_displacement(const Parts &parts);
 
-/// Draws parts off screen: frames coloured by displacement, bodies each in a colour, axes, a bar of colours, a caption.
+/// Draws parts off screen: frames coloured by displacement, each body in one colour, axes, a colour bar, a caption.
 class Renderer
 {
 public:
   Renderer(int width, int height);
   ~Renderer();
 
-  /// Looks so that the box [xmin, xmax, ymin, ...; m] fills the picture.
+  /// Sets the camera so that the box [xmin, xmax, ymin, ...; m] fills the picture.
   void look_at(const double *box);
 
-  /// Whether displacements have a size, which a bar of colours shows; those of modes have none.
+  /// Whether displacements have a size, which the colour bar shows; those of modes do not.
   enum class Sizes
   {
     known,
     unknown
   };
 
-  /// @param most  displacement [m] at the end of the colours
+  /// @param most  displacement [m] at the end of the colour scale
   vtkSmartPointer<vtkImageData> draw(const Parts &parts, double enlargement, double most, const std::string &caption,
                                      Sizes sizes);
 

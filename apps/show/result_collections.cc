@@ -97,7 +97,7 @@ std::vector<PictureFrame> collection_or_nothing(const fs::path &pvd)
   return fem::names_something(pvd) ? read_collection(pvd) : std::vector<PictureFrame>();
 }
 
-/// The picture at the time nearest to that of the peak.
+/// The picture nearest in time to the peak.
 PictureSeries at_peak(const std::vector<PictureFrame> &motion, double t)
 {
   const auto nearer = [&](const PictureFrame &a, const PictureFrame &b)

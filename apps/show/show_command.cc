@@ -113,7 +113,7 @@ struct ShowOptions
   bool        films = true, quiet = false;
 };
 
-/// Loaded here, as VTK's rendering would make every start of the program slower.
+/// Loads VTK's rendering only here, because it would slow down every start of the program.
 DrawPictures *picture_service()
 {
   const auto file = coupling::find_plugin(show_library);

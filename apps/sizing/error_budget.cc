@@ -25,8 +25,8 @@ std::string event_text(const coupling::Event &event)
   return event.name + " " + event.kind;
 }
 
-/// The first event by which `b` differs from `a` up to the time t of a, each element by itself: where those of two
-/// elements change places, the motion changes by as little as their times.
+/// The first event in which `b` differs from `a` up to the time t of a, for each element separately: if events of two
+/// elements change their order, the motion changes only slightly.
 Differs differing_event(const ModelAnswer &a, const ModelAnswer &b, double t)
 {
   std::map<std::string, std::vector<coupling::Event>> others;
@@ -53,7 +53,7 @@ struct Comparison
 {
   std::optional<ModelAnswer> first, second;
   double                     factor = 1.;   ///< from the difference of two values to the error of the first
-  std::string                reason;        ///< what the second model is; without one why
+  std::string                reason;        ///< the second model; if there is none, the reason
   bool                       exact = false; ///< there is nothing to err
 };
 
@@ -107,7 +107,7 @@ private:
   const std::atomic<bool>       *stop_;
 };
 
-/// What fails is a reason.
+/// Converts a failure to a reason.
 template <typename Make>
 Comparison BudgetMaker::timed(double &cpu, const Make &make)
 {
@@ -138,8 +138,8 @@ Comparison BudgetMaker::against(ModelVariant finer, std::string reason)
   return comparison;
 }
 
-/// What straight sides cut off curved faces: the same cells with sides that follow these.  It falls with no finer mesh
-/// while no circle has fewer sides than a mesh gives each, so it is no part of what two sizes of cells tell.
+/// Geometry error of straight sides at curved faces: compared with the same mesh with sides that follow the faces.  It
+/// does not decrease with finer meshes while circles have the minimum number of sides, which two sizes do not reveal.
 Comparison BudgetMaker::sides()
 {
   if (scene_.frame.source != FrameSource::geometry && scene_.frame.source != FrameSource::parts)
@@ -172,7 +172,7 @@ Comparison BudgetMaker::degree()
       if (Comparison third = raised(); third.second)
         return third;
     }
-    catch (const std::exception &) // such as an output that degree three does not tell
+    catch (const std::exception &) // such as an output that elements of degree three do not give
     {
       if (stop_ && *stop_)
         throw;
@@ -181,7 +181,7 @@ Comparison BudgetMaker::degree()
   return coarser_cells();
 }
 
-/// Of the mesh itself in elements of degree three, or of a coarser one whose error is reckoned to this one.
+/// Mesh error from elements of degree three, or from a coarser mesh and extrapolated to this one.
 Comparison BudgetMaker::raised()
 {
   ModelVariant variant          = finest_;
@@ -200,7 +200,7 @@ Comparison BudgetMaker::raised()
     if (k > 0)
       finest_ = variant;
     variant.raised = true;
-    if (modes_are_chosen(scene_)) // of which there may be a frame already
+    if (modes_are_chosen(scene_)) // a frame may already be available
       variant.made = std::max(more_modes(scene_, run_), more_than(finest_.made));
     Comparison comparison = against(
         variant, "elements of degree three" +
@@ -219,7 +219,7 @@ Comparison BudgetMaker::coarser_cells()
     return not_known("the mesh comes from a file and cannot be made coarser");
   ModelVariant variant = finest_;
   variant.mesh *= ratio_of_meshes;
-  if (scene_.frame.source != FrameSource::parts) // whose second reduction stays as it is
+  if (scene_.frame.source != FrameSource::parts) // the second reduction of parts stays unchanged
     variant.modes = modes_asked(scene_, run_);
   Comparison comparison;
   comparison.first        = models_.of(finest_);
@@ -241,14 +241,14 @@ Comparison BudgetMaker::more_modes_kept()
     return nothing_errs("the frame is not reduced");
   if (run_.modes >= run_.most_modes)
     return nothing_errs("all modes are kept");
-  ModelVariant more = finest_; // whose frame has so many at least, if it was made with more
+  ModelVariant more = finest_; // its frame already has these modes if it was made with more
   more.modes        = more_modes(scene_, run_);
-  if (!modes_are_chosen(scene_)) // of statics alone
+  if (!modes_are_chosen(scene_)) // only statics
     more.reduction = "craig-bampton";
   return against(more, std::to_string(more.modes) + " modes");
 }
 
-/// By `exact`, so that what follows differs in nothing else; nothing where that does not treat the machine.
+/// Integrates with `exact`, so that later models differ in nothing else; none if it cannot treat the machine.
 std::optional<Comparison> BudgetMaker::exact_in_time()
 {
   try
@@ -294,7 +294,7 @@ BudgetPart BudgetMaker::part_of(std::size_t output, const Comparison &comparison
   return {comparison.factor * std::abs(v - w), comparison.reason};
 }
 
-/// Of two causes; nothing is known where one is not.
+/// Sum of two causes; unknown if one of them is.
 BudgetPart sum(const BudgetPart &a, const BudgetPart &b)
 {
   if (!a.error || !b.error)

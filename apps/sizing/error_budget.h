@@ -11,24 +11,28 @@ namespace gestell::apps
 std::vector<OutputName> budget_outputs(const Scene &scene, const std::string &list);
 
 /**
- * Errors of the outputs of a run, each part by two models that differ in it alone.  v_0 is the run, and each comparison
- * begins with the finer model of the one before, so that the sum of all is at least the difference to the finest:
+ * Errors of the outputs of a run.  Each part follows from two models that differ only in it.  v_0 is the run, and each
+ * comparison starts with the finer model of the previous one, so that the sum is at least the difference to the finest
+ * model:
  *
  *     time       |v_0 - v_1|, v_1 integrated by `exact` of order 8 to 1e-10, as all others then
- *     mesh       |v_1 - v_2| + 1.25 |v_2 - v_3|, v_2 on the same cells with sides that follow the geometry, v_3 on
- * these in elements of degree three; of a frame with more than 60 000 coordinates v_2 - v_3 of the finest with cells of
- * 3/2, 9/4, 27/8 of the size that has no more, over r^(3/2), r^3 the ratio of the numbers of coordinates: order 3/2 in
- * h is between 1 of a sharp corner and 4 of smooth fields.  Where degree three does not tell an output,
- * |v_2(h) - v_2(3/2 h)|/(r^(3/2) - 1).  v_2 = v_1 where sides follow the geometry already, or faces are planes
- *     reduction  |v_3(m) - v_3(2 m)|, m modes, eight more at least
+ *     mesh       |v_1 - v_2| + 1.25 |v_2 - v_3|, v_2 on the same mesh with sides that follow the geometry, v_3 on
+ *                that mesh with elements of degree three
+ *     reduction  |v_3(m) - v_3(2 m)|, m modes, at least eight more in the second model
  *
- * Where `exact` does not treat the machine the time comes last, |v_3 - v_4| with half the step (a sixteenth of the
- * tolerance), times 2^p/(2^p - 1) (16/15).
+ * Exceptions of the mesh error: v_2 = v_1 if the sides follow the geometry already, or all faces are planes.  If the
+ * frame has more than 60 000 DOFs, v_2 - v_3 is computed on the finest of three meshes with 3/2, 9/4, 27/8 of the
+ * element size that has no more DOFs than that, and divided by r^(3/2), where r^3 is the ratio of the numbers of DOFs:
+ * the order 3/2 in h is between 1 (sharp corner) and 4 (smooth fields).  If elements of degree three do not give an
+ * output, |v_2(h) - v_2(3/2 h)|/(r^(3/2) - 1) is used.
  *
- * Where two models differ in the order of their events up to the instant that decides an output, their difference says
- * nothing of its error: no number is given then, but the range of the values of all models.
+ * If `exact` cannot treat the machine, the time error is computed last: |v_3 - v_4| with half the step (a sixteenth of
+ * the tolerance), times 2^p/(2^p - 1) (16/15).
  *
- * @param run  the scene's own answer.
+ * If two models differ in the order of their events before the instant that determines an output, their difference is
+ * no error estimate; the result is then only the range of the values of all models.
+ *
+ * @param run  the answer of the scene itself.
  * @throws coupling::ConvergenceFailure if it is interrupted
  *
  * Source: docs/theory/mesh_error.md (4a, 4b); Roache, J. Fluids Eng. 116, 1994, 405-413 (two meshes); docs/size.md.
@@ -41,11 +45,11 @@ struct JudgedModel
 {
   ErrorBudget budget;
   ModelAnswer run;
-  ModelAnswer finest; ///< of the last model of the comparisons
-  std::string what;   ///< that is, for people
+  ModelAnswer finest; ///< of the finest model of the comparisons
+  std::string what;   ///< description of the finest model, for people
 };
 
-/// The same of one of the models of a scene.
+/// The same for one of the models of a scene.
 JudgedModel judged(ModelAnswers &models, const ModelVariant &model);
 
 } // namespace gestell::apps

@@ -11,7 +11,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Columns of p, then three of a field of acceleration, which take what the modes behind column n do not.
+/// Columns of p, then three of an acceleration field, to which the static part of the modes after column n is added.
 void keep_columns(Eigen::MatrixXf &rows, Eigen::Index n, const Eigen::MatrixXd &statics)
 {
   const Eigen::Index left = statics.rows();
@@ -28,7 +28,7 @@ coupling::ReducedFrame with_first_modes(coupling::ReducedFrame frame, int n_mode
   if (left < 0 || !frame.modal || frame.omega0.size() != all - frame.n_interface)
     throw std::invalid_argument("a frame of " + std::to_string(frame.omega0.size()) + " modes has no first " +
                                 std::to_string(n_modes));
-  // [left x 3] deflection of the modes left out under a unit field
+  // [left x 3] deflection of the truncated modes under a unit field
   const Eigen::MatrixXd statics =
       frame.omega0.tail(left).cwiseAbs2().cwiseInverse().asDiagonal() * frame.translations_load.bottomRows(left);
   for (Eigen::MatrixXd *A : {&frame.M, &frame.B, &frame.C})

@@ -6,14 +6,14 @@ namespace gestell::apps
 {
 
 /**
- * A frame reduced by Craig-Bampton with the first of its fixed-interface modes alone: the leading blocks of M, B, C and
- * of all rows.  These modes have M_LL = E, diagonal C_LL and no stiffness to the interface, so what they carried of a
- * unit field of acceleration goes into the rows under it, f_j/omega_j^2 each. A damping ratio stays that of the modes
- * of the whole frame.  Frequencies and their errors stay those of the whole frame, too, as many as there are
- * coordinates.
+ * Truncates a frame reduced by Craig-Bampton to its first fixed-interface modes: the leading blocks of M, B, C and of
+ * all rows.  Fixed-interface modes have M_LL = E, diagonal C_LL and no stiffness coupling to the interface, so the
+ * static response f_j/omega_j^2 of each removed mode to a unit acceleration is added to the rows for that acceleration.
+ * The damping ratio remains that of the modes of the given frame.  Its frequencies and their errors are copied, as many
+ * as the truncated frame has coordinates.
  *
- * @param frame    with nothing but modes behind the interface.
- * @param n_modes  at most as many as it has
+ * @param frame    its coordinates are the interface and modes, nothing else.
+ * @param n_modes  at most the number of its modes
  */
 coupling::ReducedFrame with_first_modes(coupling::ReducedFrame frame, int n_modes);
 

@@ -17,7 +17,7 @@ bool is_meshed(const std::string &cad)
   return kind != ".msh" && kind != ".inp" && kind != ".stl";
 }
 
-/// Whether there are but planes.
+/// Whether all faces are planes.
 bool is_plane(const fem::FrameSpecification &frame, KnownPlanes &known)
 {
   if (const auto found = known.find(frame.cad); found != known.end())
@@ -27,7 +27,7 @@ bool is_plane(const fem::FrameSpecification &frame, KnownPlanes &known)
   {
     plane = !coupling::mesh_service().inspect(frame).curved;
   }
-  catch (const std::exception &) // of which the mesh will tell more
+  catch (const std::exception &) // meshing will report the error
   {
   }
   return known[frame.cad] = plane;

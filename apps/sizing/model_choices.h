@@ -8,26 +8,26 @@
 namespace gestell::apps
 {
 
-/// Whether the mesh of the scene's frame is made by the program, so that its size can be chosen.
+/// Whether the program makes the mesh of the scene's frame, so that its size can be chosen.
 bool mesh_is_made(const Scene &scene);
-/// The same of a frame of parts: of all of them.
+/// The same for a frame of parts: whether it makes the meshes of all parts.
 bool meshes_of_parts_are_made(const Scene &scene);
-/// Either of them.
+/// Whether either of them is true.
 bool mesh_can_change(const Scene &scene);
 
-/// What the sides of its cells leave of curved faces.
-enum class Sides ///< the worse the later
+/// Geometry error at curved faces caused by the sides of the elements.
+enum class Sides ///< in the order of increasing error
 {
-  exact,    ///< nothing: they follow the faces, or there are but planes
-  straight, ///< of tetrahedra, which could follow them
-  unknown   ///< of hexahedra, and of meshes from files
+  exact,    ///< none: sides follow the faces, or all faces are planes
+  straight, ///< tetrahedra with straight sides, which could be curved
+  unknown   ///< hexahedra, and meshes from files
 };
-/// Of a geometry's file: whether its faces are planes alone.
+/// For each geometry file, whether all its faces are planes.
 using KnownPlanes = std::map<std::string, bool>;
-/// @param known  where what the files tell is kept
+/// @param known  cache of what was read from the files
 Sides sides_of(const Scene &scene, KnownPlanes &known);
 
-/// Whether the frame of the scene is reduced, so that its number of modes can be chosen.
+/// Whether the frame of the scene is reduced with a number of modes that can be chosen.
 bool modes_are_chosen(const Scene &scene);
 
 } // namespace gestell::apps

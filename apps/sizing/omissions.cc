@@ -13,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double half     = 0.5; ///< of the tolerance, for each omission alone
+constexpr double half     = 0.5; ///< of the tolerance, for each single omission
 constexpr double as_rigid = 1e4; ///< times as stiff: what yields 1e-4 of before yields nothing that counts
 
 /// The largest change of an output, of its scale.
@@ -44,7 +44,7 @@ public:
   }
 
 private:
-  /// Of another scene; null where it cannot be run: others rest on what it lacks.
+  /// Change with another scene; null if it cannot be run: other parts depend on the omitted one.
   std::optional<Change> change(Scene other, const ModelAnswer &than) const;
   void                  may_be_left_out(const std::string &what, const Scene &without);
   bool                  may_ask(const std::string &what, double cpu);
@@ -86,7 +86,7 @@ bool Questions::may_ask(const std::string &what, double cpu)
 
 std::optional<Change> Questions::change(Scene other, const ModelAnswer &than) const
 {
-  keep_signals(other, signals_of(model_.outputs)); // others may read what is left out
+  keep_signals(other, signals_of(model_.outputs)); // others may read an omitted part
   try
   {
     const ModelAnswer answer = answer_of(other, {}, model_.outputs, stop_);
@@ -186,7 +186,7 @@ void Questions::rigid_frame()
     found_.left_out.push_back(what + ": " + changed->text());
 }
 
-/// Both kinds of every interface: a wall softer than its rigid surface, and one whose elasticity does nothing.
+/// Tries both kinds of every interface: a wall softer than its rigid surface, and one whose elasticity has no effect.
 void Questions::kinds_of_interfaces()
 {
   const auto &interfaces = model_.scene.frame.geometry.interfaces;

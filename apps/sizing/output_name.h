@@ -8,33 +8,33 @@
 namespace gestell::apps
 {
 
-/// A number of a run that can be asked for: `SIGNAL.min`, `.max`, `.t_min`, `.t_max`, `.final`, `.range`, or the
-/// frequency of a coupled mode, `modes.2`.
+/// A scalar result of a run: `SIGNAL.min`, `.max`, `.t_min`, `.t_max`, `.final`, `.range`, or the frequency of a
+/// coupled mode, `modes.2`.
 struct OutputName
 {
   std::string text;
-  std::string signal, kind; ///< of a signal
-  int         mode = 0;     ///< from 1; 0: of a signal
+  std::string signal, kind; ///< if it is of a signal
+  int         mode = 0;     ///< from 1; 0: it is of a signal
 
   bool of_signal() const { return mode == 0; }
 };
 
 /// @param given    as typed
-/// @param signals  names of those the scene has
-/// @param modes    number of modes it tells
+/// @param signals  names of the signals of the scene
+/// @param modes    number of modes that the scene computes
 /// @throws std::invalid_argument if there is no such output, or it is a count
 OutputName output_named(const std::string &given, const std::vector<std::string> &signals, int modes);
 
-/// All of the comma separated list; where it is empty the largest and smallest value of every signal.
+/// Outputs of a comma-separated list; for an empty list the largest and smallest value of every signal.
 std::vector<OutputName> outputs_named(const std::string &list, const std::vector<std::string> &signals, int modes);
 
-/// Names of the signals that they are of.
+/// Names of the signals of these outputs.
 std::vector<std::string> signals_of(const std::vector<OutputName> &outputs);
 
-/// Of a signal over a run.
+/// Value of an output from the summary of its signal.
 double      value_of(const OutputName &output, const coupling::SignalSummary &signal);
 std::string unit_of(const OutputName &output, const coupling::SignalSummary &signal);
-/// [s] until which the run decides about the value.
+/// Time [s] after which the run does not change the value.
 double decided_at(const OutputName &output, const coupling::SignalSummary &signal, double end);
 
 } // namespace gestell::apps

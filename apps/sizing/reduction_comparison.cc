@@ -105,7 +105,7 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
       ReductionPoint point;
       try
       {
-        // As many coordinates as the others have with their interface.
+        // the same number of coordinates as the others, interface included
         const bool in_modes = entry.makes == coupling::ReductionEntry::Makes::modes_of_machine;
         const int  kept     = in_modes ? number + reference.interface : number;
         point               = point_of(scene, entry.name, kept, outputs, options.stop, answer);

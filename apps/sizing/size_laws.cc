@@ -34,7 +34,7 @@ std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> poin
                                                [&](const MeshPoint &other) { return other.size > apart * best.size; });
   constexpr double least_order  = 1.; // re-entrant edges leave about one
   constexpr double most_order   = 4.; // energies of quadratic elements
-  constexpr double usual_order  = 3.; // between both, until two meshes tell it
+  constexpr double usual_order  = 3.; // between both, until two meshes show it
   constexpr double fewest       = 1.; // beams
   constexpr double most         = 3.; // solids
   constexpr double usual_growth = 2.; // walls

@@ -6,10 +6,10 @@
 namespace gestell::apps
 {
 
-/// Of cell sizes that are compared: the coarser mesh has a third of the coordinates in solids, so it costs little.
+/// Ratio of the element sizes of two compared meshes. In solids the coarser mesh has a third of the DOFs.
 constexpr double ratio_of_meshes = 1.5;
 
-/// Errors of an output by their cause, of what is allowed; infinite: not known.
+/// Errors of an output by their cause, relative to the allowed error; infinite: unknown.
 struct Shares
 {
   double sides = 0., degree = 0., modes = 0., time = 0.;
@@ -18,38 +18,38 @@ struct Shares
   double total() const { return mesh() + modes + time; }
 };
 
-/// The largest of all outputs, of one cause.
+/// The largest share of one cause over all outputs.
 double largest(const std::vector<Shares> &outputs, double Shares::*cause);
 
-/// A mesh that was judged.
+/// A mesh with known errors.
 struct MeshPoint
 {
-  double              size        = 1.; ///< of the cells, of that in the scene
+  double              size        = 1.; ///< of the elements, relative to that in the scene
   double              coordinates = 0.;
   double              cpu_s       = 0.;
   std::vector<Shares> shares; ///< by output
 };
 
 /**
- * The coarsest mesh of one kind whose largest error, sides + degree + modes + time, is expected within `aim`:
+ * The coarsest mesh of one kind whose largest error, sides + degree + modes + time, is predicted to be within `aim`:
  *
  *     degree ~ h^q,   coordinates ~ h^-r,   CPU time ~ coordinates^1.2,   sides constant
  *
- * q between 1 of a sharp corner and 4 of smooth fields, r between 1 and 3, both from the two finest points.  Of one
- * point q = 3 and r = 2, and the mesh is at most twice as fine, where the law can be seen.
+ * with q between 1 (sharp corner) and 4 (smooth fields) and r between 1 and 3, both from the two finest points.  With
+ * one point q = 3 and r = 2, and the mesh is refined by two at most, to determine q and r.
  *
- * @param points  of meshes of one kind
- * @param others  modes and time that the next model will have, by output
- * @param coarsest  size
- * @return nothing where sides alone are above the aim, or not known
+ * @param points    of meshes of one kind
+ * @param others    errors of modes and time of the next model, by output
+ * @param coarsest  upper limit of the size
+ * @return none if the error of the sides alone exceeds the aim, or is unknown
  */
 std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> points, const std::vector<Shares> &others,
                                          double coarsest);
 
-/// Modes, of a ladder, with which a share falls to `aim`: the error of m modes falls at least like m^-2.
+/// Number of modes in mode_ladder() for which a share falls to `aim`: the error is assumed to fall like m^-2 or faster.
 int modes_for(double aim, int modes, double share);
 
-/// From there on the numbers of modes that are tried.
+/// Numbers of modes that are tried.
 const std::vector<int> &mode_ladder();
 
 } // namespace gestell::apps

@@ -35,7 +35,7 @@ SizeModels::SizeModels(const Scene &scene, const std::vector<OutputName> &output
         short_text(tolerance));
 }
 
-/// Whether `exact` treats the machine, with the scene's keys beside it.
+/// Whether `exact` can treat the machine, with the other keys of the scene.
 bool SizeModels::takes_exact(const SizePlace &place)
 {
   const coupling::MethodOptions &given = scene_.run.options.method;
@@ -48,7 +48,7 @@ bool SizeModels::takes_exact(const SizePlace &place)
     Scene short_run           = varied(scene_, variant);
     auto &options             = short_run.run.options;
     options.end               = options.begin + 1e-3 * (options.end - options.begin);
-    options.from              = options.begin; // whether it runs is asked, no extreme
+    options.from              = options.begin; // the test needs no extremes
     short_run.run.last_period = false;
     answer_of(short_run, {}, outputs_, stop_);
     return true;
@@ -131,7 +131,7 @@ Shares SizeModels::shares_of(const BudgetEntry &entry, double allowed) const
   return {share(entry.sides), share(degree), share(entry.reduction.error), share(entry.time.error)};
 }
 
-/// What the model is and costs.
+/// Description and cost of a model.
 SizeRung SizeModels::rung_of(const SizePlace &place, const ModelAnswer &answer) const
 {
   const Scene             scene  = varied(scene_, variant_of(place));
@@ -227,7 +227,7 @@ bool SizeModels::by_steps() const
 
 SizeModels::TimeLaw SizeModels::time_law() const
 {
-  constexpr double finest_tolerance = 1e-9; // ten times that of the finest of a budget
+  constexpr double finest_tolerance = 1e-9; // ten times that of the finest model of a budget
   if (by_exact_)
     return {10., 1., finest_tolerance};
   return by_steps() ? TimeLaw{2., double(std::max(1, scene_.run.options.method.order)), 0.} : TimeLaw{4., 1., 0.};

@@ -17,12 +17,12 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double aim          = 0.8; ///< of what is allowed, as laws err
-constexpr double of_a_part    = 0.2; ///< of what is allowed: modes and time are cheap beside the mesh,
+constexpr double aim          = 0.8; ///< of the tolerance, because laws have errors
+constexpr double of_a_part    = 0.2; ///< of the allowed error: modes and time are cheap compared with the mesh,
 constexpr double without_mesh = 0.5; ///< of modes where there is none to be made finer
 constexpr double most_runs    = 10.; ///< of the chosen model, that a search may take
 
-constexpr double no_limit = std::numeric_limits<double>::infinity(); ///< of what a model may cost, or err by
+constexpr double no_limit = std::numeric_limits<double>::infinity(); ///< of the cost or the error of a model
 
 class Search
 {
@@ -63,7 +63,7 @@ private:
   std::vector<Cells>             kinds_ = {Cells::given}, untried_; ///< of meshes
   std::deque<SizedPlace>         judged_;
   SizePlace                      planned_; ///< modes and time of the next model
-  std::vector<Shares>            others_;  ///< that they will leave
+  std::vector<Shares>            others_;  ///< shares of error expected with it
   SizeResult                     result_;
 };
 
@@ -75,7 +75,7 @@ const SizedPlace &Search::judge(const SizePlace &place, double most_cells)
   return judged_.back();
 }
 
-/// Kinds of mesh beside the one given.  What straight sides leave is known apart: without it they are curved ones.
+/// Other kinds of mesh.  Without the error of straight sides, which is known, they equal curved ones.
 void Search::find_kinds()
 {
   if (!mesh_can_change(scene_))
@@ -83,7 +83,7 @@ void Search::find_kinds()
   const fem::MeshOptions &mesh = scene_.frame.geometry.mesh;
   if (mesh_is_made(scene_) && mesh.plates == fem::Plates::swept)
   {
-    if (mesh.layers == 1) // a key of swept plates alone
+    if (mesh.layers == 1) // a key only for swept plates
       untried_ = {Cells::curved};
     return;
   }
@@ -132,15 +132,14 @@ void Search::plan(const SizedPlace &last)
   }
 }
 
-/// As few modes as the coarse frame shows to suffice, of those planned: the first of one reduction are the modes of
-/// smaller ones.
+/// Reduces the number of modes to that sufficient on the coarse frame, whose first modes are those of smaller ones.
 void Search::keep_few_modes(const SizedPlace &coarse)
 {
   SizePlace  all  = coarse.place;
   const bool more = planned_.modes > coarse.place.modes;
   if (planned_.modes <= 0)
     return;
-  double rest = 0.; // what mesh and time take where nothing is made finer
+  double rest = 0.; // share of mesh and time in the coarse model
   for (const Shares &shares : coarse.point.shares)
     rest = std::max(rest, shares.mesh() + shares.time);
   const double part              = std::max(of_modes(), aim - rest);
@@ -244,7 +243,8 @@ SizedPlace *Search::best()
   return best;
 }
 
-/// Whether the best so far, if any, agrees with its answer on cells of 2/3 the size; else that model is judged.
+/// Whether the best model so far, if any, agrees with its answer on elements of 2/3 the size; otherwise the errors of
+/// that model are estimated.
 bool Search::is_confirmed()
 {
   SizedPlace *so_far = best();
@@ -271,8 +271,8 @@ bool Search::is_confirmed()
   }
 }
 
-/// Whether the error of one of the first models is: where in all of them events come in another order, finer ones cost
-/// more and tell no more.
+/// Whether the error of one of the first models is known: if in all of them events have another order, finer ones cost
+/// more without more information.
 bool Search::is_known()
 {
   constexpr int seen_enough = 3; // models without a known error: the next would have none either
@@ -286,13 +286,13 @@ bool Search::is_known()
   return false;
 }
 
-/// To be judged: a model not judged yet, smaller than the best so far.
+/// Whether to estimate the errors of a model: a new one, smaller than the best so far.
 bool Search::is_worth(const SizePlace &place, double coordinates)
 {
   if (std::any_of(judged_.begin(), judged_.end(), [&](const SizedPlace &other) { return other.place == place; }))
     return false;
   const SizedPlace *so_far   = best();
-  constexpr double  worth_it = 0.8; // of the coordinates, below which a smaller model is judged, too
+  constexpr double  worth_it = 0.8; // ratio of coordinates below which a smaller model is also tried
   return !so_far || coordinates < worth_it * so_far->point.coordinates ||
          (place.cells == so_far->place.cells && place.mesh == so_far->place.mesh && place.modes < so_far->place.modes);
 }
@@ -307,7 +307,7 @@ void Search::forecast(double coordinates, double model_cpu, double work)
     options_.on_forecast(reported);
 }
 
-/// What is above the limits that were given ends the search.
+/// Ends the search if a given limit is exceeded.
 void Search::stop_above(double cpu)
 {
   if (options_.max_cpu > 0. && cpu > options_.max_cpu)
@@ -384,7 +384,7 @@ void Search::question(const SizedPlace &chosen)
   std::tie(result_.left_out, result_.missing, result_.unasked) = std::tie(found.left_out, found.missing, found.unasked);
 }
 
-/// Every model up to one rung finer than the chosen one in each part, against the finest of its budget.
+/// Compares every model up to one level finer than the chosen one in each part with the finest of its budget.
 void Search::try_all(const SizedPlace &chosen)
 {
   const ModelAnswer &finer = chosen.model.finest;

@@ -10,11 +10,12 @@
 namespace gestell::apps
 {
 
-/// Entries of the scene by which it has the sizes of the model, keys and values as TOML writes them.
+/// Scene keys that define the sizes of the model, with values in TOML syntax.
 std::vector<std::pair<std::string, std::string>> sized_entries(const Scene &scene, const ModelVariant &model);
 
-/// A scene file that extends the scene of a file by what is typed in the command line, "key=value", and by the sizes of
-/// a model: cells, modes, method, step.  Its path is relative to `folder`, where it is meant to be.
+/// Text of a scene file that extends the scene's file by the overrides of the command line, "key=value", and by the
+/// sizes of a model: elements, modes, method, step.  The path to the extended file is relative to `folder`, the
+/// intended folder of the text.
 std::string sized_scene(const Scene &scene, const std::vector<std::string> &overrides, const ModelVariant &model,
                         const std::filesystem::path &folder);
 

@@ -6,20 +6,20 @@
 namespace gestell::apps
 {
 
-/// A machine to start from: scene and script of its frame, in which NAME stands for the name of their files.
+/// An initial machine: scene and script of its frame, in which NAME is replaced by the name of their files.
 struct SceneTemplate
 {
   std::string kind; ///< "press"
   std::string scene, frame;
 };
 
-/// All kinds, in the order of their listing.
+/// All templates, in the order of their listing.
 std::vector<SceneTemplate> scene_templates();
 
-/// @throws std::invalid_argument with the nearest kind and all of them
+/// @throws std::invalid_argument with the most similar kind and all of them
 SceneTemplate scene_template(const std::string &kind);
 
-/// The template with its NAME.
+/// The template with `name` in place of NAME.
 SceneTemplate named(SceneTemplate draft, const std::string &name);
 
 /// First line of the scene without "# ", to its full stop or colon.

@@ -113,7 +113,7 @@ const Map &map_of(const std::string &name)
 }
 
 /**
- * What a method makes of the oscillator x'' + 2 zeta omega x' + omega^2 x = 0, for every row of `expected` by its
+ * Results of a method for the oscillator x'' + 2 zeta omega x' + omega^2 x = 0, for every row of `expected` with its
  * columns method, zeta, omega_h, start.
  *
  * @param name  "spectral radius", "period and damping", "unstable intervals" (from the column `zeta`), "overshoot"

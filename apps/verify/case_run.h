@@ -9,23 +9,23 @@
 namespace gestell::apps
 {
 
-/// A case as it was computed once.
+/// A case that was computed once.
 class CaseRun
 {
 public:
-  /// @param more  entries of the scene beside those of the case
+  /// @param more  scene keys in addition to those of the case
   /// @throws std::invalid_argument, std::runtime_error: it cannot be computed
   CaseRun(const ReferenceCase &one, const std::vector<std::string> &more, const std::atomic<bool> *interruption);
 
-  /// An entry of the answer, such as "signals.F.max", with its unit.
+  /// A value of the answer, such as "signals.F.max", with its unit.
   AnswerValue value(const std::string &entry) const;
-  /// Rows of the expected table, but for those of methods that the case leaves out.
+  /// Rows of the expected table, except those of methods that the case omits.
   DataTable expected_rows(const Check &check) const;
-  /// A file of results, "events" or, of integrators, a map of the rows of `expected`.
+  /// A result file, "events" or, for integrators, the counterparts of the rows of `expected`.
   DataTable table(const std::string &name, const DataTable &expected) const;
-  /// A formula of the scene's parameters, in SI.
-  /// @param unit  that it must have, unless it is a plain number; empty: any
-  /// @throws std::invalid_argument for another one
+  /// Value of a formula of the scene's parameters, in SI.
+  /// @param unit  its required unit, unless it is a plain number; empty: any
+  /// @throws std::invalid_argument for another unit
   double expected(const std::string &formula, const std::string &unit) const;
 
 private:

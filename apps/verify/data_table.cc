@@ -73,7 +73,7 @@ std::string DataTable::cell(std::size_t row, const std::string &wanted) const
     const double value = parse_quantity(wanted, number_in, head).value;
     if (names_one)
       return exact_text(value);
-    throw std::invalid_argument("it names none of them"); // "t" alone would be a tonne
+    throw std::invalid_argument("it names none of them"); // "t" on its own would be a tonne
   }
   catch (const std::invalid_argument &error)
   {

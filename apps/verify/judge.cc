@@ -132,7 +132,7 @@ std::vector<Pairs> all_pairs(const CaseRun &run, const Check &check)
   return {pair};
 }
 
-/// By which a number misses; nan counts as infinite, and so does an infinite number beside a finite one.
+/// Deviation of a number; infinite for nan and for an infinite number compared with a finite one.
 double miss(const Check &check, double obtained, double expected)
 {
   if (obtained == expected)
@@ -154,7 +154,7 @@ double scale_of(const std::vector<double> &numbers)
   return scale;
 }
 
-/// By which a number may miss; of an infinite one nothing is relative.
+/// Tolerance of a number; for an infinite one only the absolute part.
 double allowed_at(const Check &check, double expected, double scale)
 {
   if (std::isinf(expected))
@@ -200,7 +200,7 @@ double size_of(const std::string &text)
   return parse_quantity(text, [](const std::string &) { return std::optional<Quantity>(); }).value;
 }
 
-/// Of errors e at h: log(e1/e2) / log(h1/h2) of the last two.
+/// Order from the errors e at h: log(e1/e2) / log(h1/h2) of the last two.
 CheckOutcome order_of(const std::vector<CheckOutcome> &outcomes, const ReferenceCase &one, const Check &check)
 {
   const std::size_t n     = outcomes.size();

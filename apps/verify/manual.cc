@@ -29,7 +29,7 @@ std::string file_name(const std::string &path)
   return std::filesystem::path(path).filename().string();
 }
 
-/// What was compared, "signals.F.max" or "history.csv: x, v".
+/// The compared value, "signals.F.max" or "history.csv: x, v".
 std::string compared(const Check &check)
 {
   if (!check.value.empty())
@@ -71,7 +71,7 @@ std::string provenance(const Check &check)
   return text + "; allowed: " + check.because;
 }
 
-/// What each compares, checks with the same expectation and tolerance in one line.
+/// One note for all checks with the same expectation and tolerance.
 std::vector<std::string> notes_of(const ReferenceCase &one)
 {
   std::vector<std::pair<std::string, std::string>> notes; ///< provenance, what is compared

@@ -9,7 +9,7 @@
 namespace gestell::apps
 {
 
-/// A file of cases with what came out, one outcome a case.
+/// A file of cases with its results, one outcome per case.
 struct VerifiedFile
 {
   CaseFile                 file{};
@@ -21,7 +21,7 @@ struct Verification
 {
   std::vector<VerifiedFile> files{};
   std::string               version{}, commit{};
-  int                       n_skipped = 0; ///< long cases that were not asked for
+  int                       n_skipped = 0; ///< long cases that were not requested
 
   int n_cases() const;
   int n_checks() const;
@@ -30,12 +30,12 @@ struct Verification
 
 std::string verification_page(const Verification &all);     ///< HTML, self-contained
 std::string verification_document(const Verification &all); ///< Markdown
-CsvTable    verification_csv(const Verification &all);      ///< one row a check
+CsvTable    verification_csv(const Verification &all);      ///< one row per check
 
 /// "18 cases, 43 checks: all passed".
 std::string verdict_text(const Verification &all);
 
-/// "1.2e-9 of 1e-6" and the like, of a check.
+/// "1.2e-9 of 1e-6" and the like, for a check.
 std::string outcome_line(const Check &check, const CheckOutcome &outcome);
 
 } // namespace gestell::apps

@@ -12,8 +12,8 @@ CaseFile read_cases(const std::string &path);
 /// @throws std::invalid_argument if there are none
 std::vector<std::string> case_files(const std::string &folder);
 
-/// The folder of cases shipped with the program, beside it or in its share.
-/// @throws std::invalid_argument if it is not there
+/// The folder of cases that is installed with the program, next to it or in its share folder.
+/// @throws std::invalid_argument if it does not exist
 std::string shipped_cases();
 
 } // namespace gestell::apps

@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 using Complex = std::complex<double>;
 
-/// z^H M z = 1 and, of the phase left over, Re z at right angles to Im z and no shorter.
+/// Normalises z: z^H M z = 1, and the phase such that Re z is orthogonal to Im z and not shorter.
 void normalise(const MatrixXd &M, Eigen::VectorXcd &z)
 {
   z /= std::sqrt(z.dot(M * z).real());
@@ -41,7 +41,7 @@ void set_real(const MatrixXd &C, const MatrixXd &M, double lambda, const VectorX
               CirculatoryModes &found)
 {
   const VectorXd v = z / std::sqrt(z.dot(M * z)), left = w / w.dot(M * v);
-  // condition of lambda, |left| |v|: beyond it rounding moves what would mend it
+  // condition of lambda, |left| |v|: above it rounding exceeds the correction
   constexpr double most_sensitive = 1e3;
   if (left.dot(M * left) < most_sensitive * most_sensitive)
     lambda = left.dot(C * v);          // stationary, so that it has more digits than its vectors
@@ -70,7 +70,7 @@ void set_pair(const MatrixXd &M, const Complex &lambda, bool flutters, Eigen::Ve
   found.modes.growth(j + 1)                       = flutters ? -s.real() : falls;
 }
 
-/// By frequency, those that are driven away first.
+/// Sorts by frequency; unstable modes come first.
 void sort_by_frequency(CirculatoryModes &found)
 {
   std::vector<int> order(std::size_t(found.modes.omega.size()));
@@ -81,7 +81,7 @@ void sort_by_frequency(CirculatoryModes &found)
            found.left(Eigen::all, order).eval()};
 }
 
-/// Least s, but for a factor, that makes S + s M positive definite; S symmetric.
+/// Smallest s, up to a factor, that makes S + s M positive definite; S symmetric.
 double shift_of(const MatrixXd &S, const MatrixXd &M)
 {
   const DenseModes modes  = dense_modes(S, M);

@@ -24,14 +24,14 @@ VectorXd unit_diagonal(const MatrixXd &A)
   return A.diagonal().unaryExpr([](double a) { return a > 0. ? 1. / std::sqrt(a) : 1.; });
 }
 
-/// Smallest C_ii / M_ii that is more than rounding beside the largest; an upper bound of the lowest omega^2 that is not
-/// 0. `floating` tells whether smaller ones were left out.
+/// Smallest C_ii / M_ii above the rounding of the largest: an upper bound of the lowest nonzero omega^2. `floating` is
+/// set if smaller ones were left out.
 double lowest_quotient(const MatrixXd &C, const MatrixXd &M, double cancelled, bool &floating)
 {
   VectorXd quotients(C.rows());
   int      n = 0;
   for (int i = 0; i < C.rows(); ++i)
-    if (M(i, i) > 0. && std::isfinite(C(i, i) / M(i, i))) // what is beyond has no mass
+    if (M(i, i) > 0. && std::isfinite(C(i, i) / M(i, i))) // others have no mass
       quotients(n++) = C(i, i) / M(i, i);
   const double largest = n > 0 ? quotients.head(n).maxCoeff() : 0.;
   double       s       = largest;
@@ -45,7 +45,7 @@ double lowest_quotient(const MatrixXd &C, const MatrixXd &M, double cancelled, b
 
 enum class Stiffness
 {
-  regular,  ///< every motion is held
+  regular,  ///< no motion is free
   singular, ///< some are free
   unstable  ///< some are driven away: a linkage about to fall
 };
@@ -136,10 +136,10 @@ DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted
   return modes;
 }
 
-/// Highest omega^2 of several modes so far below s that they are all alike beside it; 0 if there are none.
+/// Highest omega^2 of several modes that cannot be distinguished because s is far above them; 0 if there are none.
 double alike_beside(double s, const DenseModes &modes)
 {
-  constexpr double near = 1e-8; // omega^2 over s, below which s is too large to tell modes apart
+  constexpr double near = 1e-8; // omega^2 over s: below it s is too large to distinguish modes
   const auto       slow = [&](double omega) { return omega > 0. && omega * omega < near * s; };
   const auto       n    = std::count_if(modes.omega.begin(), modes.omega.end(), slow);
   if (n < 2)

@@ -84,7 +84,7 @@ FrontDivision::FrontDivision(const Fronts &fronts, int n_ranks)
   }
   for (std::size_t k = 0; k < best.size(); ++k)
     rank_of_front_[best[k].second] = best_rank[k];
-  for (int s = fronts.count - 1; s >= 0; --s) // what lies below a root belongs to its rank
+  for (int s = fronts.count - 1; s >= 0; --s) // the subtree of a root belongs to its rank
     if (rank_of_front_[s] < 0 && parent_[s] >= 0)
       rank_of_front_[s] = rank_of_front_[parent_[s]];
 }
@@ -95,7 +95,7 @@ bool FrontDivision::is_root(int front) const
   return rank_of_front_[front] >= 0 && parent_[front] >= 0 && rank_of_front_[parent_[front]] < 0;
 }
 
-/// Fronts that are taken, in rows that are first the columns of these ranks in turn.
+/// Selects the fronts marked in `taken`; the columns of these ranks, in turn, become the first rows.
 FrontSelection FrontDivision::selection(const std::vector<int> &columns_of_rank, const std::vector<char> &taken) const
 {
   FrontSelection   selected;

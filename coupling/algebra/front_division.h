@@ -11,7 +11,7 @@ namespace gestell::coupling
 struct FrontSelection
 {
   std::vector<int> first{0}, begin{0}, rows; // as Fronts
-  std::vector<int> order, places;            // coordinate of every row, and its place in the whole elimination
+  std::vector<int> order, places;            // coordinate of every row, and its position in the whole elimination
 
   int    columns() const { return first.back(); }
   Fronts fronts() const
@@ -32,9 +32,9 @@ public:
 
   /// The fronts of a rank: their columns, then all of the top.
   FrontSelection share(int rank) const;
-  /// The fronts above, and one without columns for each front that passes on to them.
+  /// The fronts above, and one without columns for each front that contributes to them.
   FrontSelection top() const;
-  /// Of those without columns, in turn: which rank has what they pass on.
+  /// For each front without columns: the rank that has its contribution.
   std::vector<int> givers() const;
 
 private:

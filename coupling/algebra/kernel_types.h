@@ -6,11 +6,11 @@
 namespace gestell::coupling
 {
 
-constexpr int tile_rows = 8; ///< rows of L that lie together: a cache line of doubles
+constexpr int tile_rows = 8; ///< rows of L stored together: a cache line of doubles
 
 /**
  * L in tiles: the rows of a front's panel (its own columns' rows first, ascending) are cut into tiles of eight, the
- * last one filled up with zeros.  Tile t holds, column by column, the eight entries of the columns 0 .. min(w, 8 t + 8)
+ * last padded with zeros. Tile t contains, by columns, the eight entries of the columns 0 .. min(w, 8 t + 8)
  * - 1 of the front; entries above the diagonal are zero. A sweep through L reads these numbers sequentially.
  */
 struct TiledFactor
@@ -34,9 +34,9 @@ struct TriangularSolve
 };
 
 /**
- * A sparse matrix by groups of one row, or of three that differ by a shift alone: group g has the rows
- * first[g] .. first[g + 1] - 1, and the entries begin[g] .. begin[g + 1] - 1 of its first row.  Row d of a group has
- * the same values d columns further on, as masses have that act alike along x, y and z.
+ * A sparse matrix in groups of one row, or of three rows that are shifted copies: group g has the rows first[g] ..
+ * first[g + 1] - 1, and the entries begin[g] .. begin[g + 1] - 1 of its first row.  Row d of a group has the same
+ * values d columns further to the right, as for masses that act equally along x, y and z.
  */
 struct SparseRows
 {

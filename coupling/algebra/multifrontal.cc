@@ -32,7 +32,7 @@ constexpr int    block = 64; ///< columns factored or divided by at once: 64 x 6
 constexpr int    small = 32; // the same for fronts that are not wide
 constexpr int    wide  = 4 * small; // columns
 constexpr int    slice = 256;       // columns of a triangle that are treated as a rectangle
-constexpr double one = 1., minus_one = -1., two = 2., zero = 0.; ///< whose addresses BLAS wants
+constexpr double one = 1., minus_one = -1., two = 2., zero = 0.; ///< BLAS takes their addresses
 
 /// X <- X L^-T, X [rows x w] below L [w x w], both with columns h apart: as products with the inverses of blocks on the
 /// diagonal, for OpenBLAS divides by narrow L at half the speed of a product.
@@ -88,7 +88,7 @@ public:
 
   ptrdiff_t contribution_size(int s) const { return ptrdiff_t(below(s)) * below(s); }
 
-  /// Most numbers that lie on the stack at a time: what waits, and the contribution in the making above it.
+  /// Largest number of values on the stack: waiting contributions and the new one above them.
   ptrdiff_t stack_size() const
   {
     ptrdiff_t              now = 0, most = 1;
@@ -243,8 +243,8 @@ private:
         column[local_[row]] += factor * x.value();
   }
 
-  /// Of what a front passes on, the columns first .. last - 1 of the front that takes it, to a matrix whose first row
-  /// is `first`, too.
+  /// Adds the columns of a child's contribution that are columns first .. last - 1 of its parent to a matrix whose
+  /// first row is `first`.
   void add_columns(const Waiting &child, int first, int last, double *matrix, ptrdiff_t height)
   {
     const int  r    = below(child.front);
@@ -289,8 +289,8 @@ private:
     pass_on(s);
   }
 
-  /// What the front itself contributes is joined by what it was passed and keeps on passing; the lower triangle of all
-  /// that moves down to where this lay.
+  /// Joins the contribution of front s with the remaining contributions of its children and moves the lower triangle to
+  /// the place of the first child.
   void pass_on(int s)
   {
     const int       w  = width(s);

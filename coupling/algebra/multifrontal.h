@@ -36,7 +36,7 @@ struct Border
 {
   /// Provides the contribution of a front without columns, computed elsewhere.
   std::function<void(int front, double *contribution)> given;
-  /// Gets the contribution of a front with rows below, none of which is a column of these fronts.
+  /// Receives the contribution of a front with rows below, none of which is a column of these fronts.
   std::function<void(int front, const double *contribution)> left;
 };
 
@@ -44,7 +44,7 @@ struct Border
  * Cholesky factor A = L L^T by the multifrontal method: each front collects the entries of A and the contributions of
  * the fronts before it, is factored densely, and passes its contribution on.
  *
- * @param take  gets the panel of every front in turn: L's columns [rows x columns], of which the lower triangle counts.
+ * @param take  receives the panel of every front in turn: L's columns [rows x columns], lower triangle.
  * @return      -1, or the coordinate whose pivot is not positive.
  *
  * Source: Duff & Reid, ACM Trans. Math. Software 9 (1983) 302-325.

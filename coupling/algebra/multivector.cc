@@ -22,7 +22,7 @@ int panels_for(int columns, int lanes)
   return (columns + lanes - 1) / lanes;
 }
 
-/// Columns `panel * lanes` and on of A by rows, filled up with zeros.
+/// Copies the columns of A from `panel * lanes` on, row by row, padded with zeros.
 std::vector<double> by_rows(const MatrixXd &A, int panel, int lanes)
 {
   const int           first = panel * lanes, columns = std::min<int>(lanes, int(A.cols()) - first);
@@ -125,7 +125,7 @@ struct Entry
   double value;
 };
 
-/// Whether the entries of `other` are those of `row`, `shift` columns further on.
+/// Whether `other` has the entries of `row`, moved by `shift` columns.
 bool alike(const std::vector<Entry> &row, const std::vector<Entry> &other, int shift)
 {
   return std::equal(row.begin(), row.end(), other.begin(), other.end(),
@@ -153,7 +153,7 @@ ReorderedMatrix::ReorderedMatrix(const Eigen::SparseMatrix<double> &A, const std
           entries.push_back({place[a.row()], a.value()});
     return entries;
   };
-  column_.reserve(A.nonZeros()); // most of it is never touched
+  column_.reserve(A.nonZeros()); // most of it is not used
   value_.reserve(A.nonZeros());
   std::vector<Entry> x = row(0), y = row(1), z = row(2);
   for (int k = 0; k < n_;)

@@ -13,9 +13,9 @@ namespace gestell::coupling
 {
 
 /**
- * Few columns of many numbers, X [n x columns], laid out for products: in panels of as many columns as the processor
- * takes together (fewer for few columns), in which the numbers of a row lie side by side.  Rows beyond n, up to a
- * multiple of eight and at least one, and columns beyond those in use are zero.
+ * A few long columns, X [n x columns], stored for products: in panels of as many columns as the processor handles
+ * together (fewer for few columns), in which the numbers of a row are adjacent.  Rows beyond n, up to a multiple of
+ * eight and at least one, and unused columns are zero.
  */
 class MultiVector
 {
@@ -54,7 +54,7 @@ private:
 /// X^T Y; both with panels of as many lanes.
 Eigen::MatrixXd gram(const MultiVector &X, const MultiVector &Y);
 
-/// A sparse matrix with rows and columns in another order; rows of a node that are alike are kept once.
+/// A sparse matrix with rows and columns in another order; equal rows of a node are stored once.
 class ReorderedMatrix
 {
 public:
@@ -80,7 +80,7 @@ public:
 
   void append(const MultiVector &X);
 
-  /// Q(:, from ...)^T X; `from` is where a block was added.
+  /// Q(:, from ...)^T X; `from` is the start of a block.
   Eigen::MatrixXd project(const MultiVector &X, int from = 0) const;
   /// X -= Q(:, from ...) H
   void subtract(MultiVector &X, const Eigen::MatrixXd &H, int from = 0) const;

@@ -12,7 +12,7 @@ namespace
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Rows of a column that are not held, and its diagonal.
+/// The rows of a column that are free; for a fixed column, the diagonal only.
 class Partners
 {
 public:

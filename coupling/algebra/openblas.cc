@@ -29,7 +29,7 @@ std::string fitting_kernels()
   return "";
 }
 
-/// Has OpenBLAS choose its kernels again.  Libraries built for one processor alone lack the two functions.
+/// Makes OpenBLAS choose its kernels again. Libraries for a single type of processor lack the two functions.
 void choose(const std::string &kernels)
 {
   const auto forget = reinterpret_cast<void (*)()>(dlsym(RTLD_DEFAULT, "gotoblas_dynamic_quit"));

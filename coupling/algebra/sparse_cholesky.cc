@@ -73,7 +73,7 @@ struct SparseCholesky::Factor
 namespace
 {
 
-/// What CHOLMOD knows of L from the pattern alone: the order of the coordinates and the fronts.
+/// Symbolic analysis by CHOLMOD from the pattern of A: order of the coordinates and fronts.
 cholmod_factor *analysed(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held, cholmod_common &common)
 {
   SparsePattern    lower = lower_triangle(A, held);
@@ -84,7 +84,7 @@ cholmod_factor *analysed(const Eigen::SparseMatrix<double> &A, const std::vector
   {
     const bool too_large = common.status == CHOLMOD_TOO_LARGE;
     cholmod_free_factor(&L, &common);
-    constexpr double most_numbers = 2147483647.; // of L, which CHOLMOD counts by int
+    constexpr double most_numbers = 2147483647.; // in L: CHOLMOD counts them by int
     if (too_large)
       throw NotEnoughMemory(most_numbers * sizeof(double), INFINITY);
     throw std::bad_alloc();

@@ -49,46 +49,46 @@ public:
   /// @param A [n x n]; only its lower triangle is read.
   /// @throws NotPositiveDefinite; std::invalid_argument if A is not square; std::bad_alloc.
   explicit SparseCholesky(const Eigen::SparseMatrix<double> &A);
-  /// The same of a compressed matrix with both triangles, coordinates held: their rows and columns count as zero but
-  /// for a positive number on the diagonal.
+  /// The same for a compressed matrix with both triangles and fixed coordinates `held`: their rows and columns are
+  /// treated as zero except for a positive diagonal entry.
   /// @param held       ascending.
   /// @param available  bytes for L and its work space.
   /// @throws NotEnoughMemory before the work begins.
   SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held, double available = INFINITY);
-  /// Analysed only, as if released at once: A may be singular.
+  /// Only the analysis, as after release(): A may be singular.
   static SparseCholesky without_numbers(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held);
   ~SparseCholesky();
   SparseCholesky(SparseCholesky &&) noexcept;
   SparseCholesky &operator=(SparseCholesky &&) noexcept;
 
-  /// The numbers of L, for A with the pattern this was analysed with, both triangles; as the constructor otherwise.
+  /// Computes L for a matrix A with the pattern of the analysed one, both triangles; otherwise as the constructor.
   void factorise(const Eigen::SparseMatrix<double> &A, double available = INFINITY);
 
   int size() const;
 
   /// X <- A^-1 X for all columns.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
-  /// x <- A^-1 f for n numbers at f and x, which may be the same.
+  /// x <- A^-1 f for n numbers at f and x, which may coincide.
   void solve(const double *f, double *x) const;
 
-  /// (smallest / largest diagonal entry of L)^2: a rough lower bound of how far A is from singular.
+  /// (smallest / largest diagonal entry of L)^2: a rough lower bound of the distance of A from singularity.
   double pivot_ratio() const;
-  /// As long as this lives.
+  /// Valid during the lifetime of this object.
   Fronts fronts() const;
-  /// Coordinate of A at every place in the order of elimination.
+  /// Coordinate of A at every position in the order of elimination.
   std::vector<int> order() const;
   /// The same for right-hand sides in that order: X(k, :) belongs to coordinate order()[k].
   void solve_in_place(MultiVector &X) const;
 
-  /// Numbers stored in L.
+  /// Number of entries of L.
   double entries() const;
 
   /// Frees the memory of L; afterwards only inertia() is available.
   void release();
   bool released() const;
 
-  /// Eigenvalues of (C - lambda M) x = 0 below sigma, the coordinates held cut off; see multifrontal_inertia().
-  /// @param C  the matrix this factor was made of, or one with its pattern, both triangles; M likewise.
+  /// Eigenvalues of (C - lambda M) x = 0 below sigma, without the fixed coordinates; see multifrontal_inertia().
+  /// @param C  the matrix of this factor, or one with its pattern, both triangles; the pattern of M is part of it.
   Inertia inertia(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<double> &M, double sigma) const;
 
 private:

@@ -11,7 +11,7 @@ namespace
 
 using std::ptrdiff_t;
 
-/// Numbers of L that are asked of the memory before they are needed: some 4 KB, the time of a few hundred products.
+/// Prefetch distance in numbers of L: about 4 KB, the time of a few hundred products.
 constexpr int ahead = 512;
 
 inline int least(int a, int b)
@@ -19,7 +19,7 @@ inline int least(int a, int b)
   return a < b ? a : b;
 }
 
-/// A front, and where its rows of X lie.
+/// A front, and the addresses of its rows of X.
 struct FrontAt
 {
   int        first, width, height;
@@ -29,7 +29,7 @@ struct FrontAt
       : first(L.first[s]), width(L.first[s + 1] - first), height(L.begin[s + 1] - L.begin[s]), rows(L.rows + L.begin[s])
   {
   }
-  int length(int tile) const { return least(width, tile + tile_rows); } // of the tile whose first row is given
+  int length(int tile) const { return least(width, tile + tile_rows); } // for the tile whose first row is given
 };
 
 /// Numbers that a processor takes together.
@@ -42,7 +42,7 @@ struct Eight
   typedef double Vector __attribute__((vector_size(64), aligned(8), may_alias));
 };
 
-/// `columns` right-hand sides as V vectors; R rows of a tile are held in registers.
+/// `columns` right-hand sides as V vectors; R rows of a tile are kept in registers.
 template <typename Lanes, int V, int R>
 struct Block
 {

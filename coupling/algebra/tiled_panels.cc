@@ -19,7 +19,7 @@ void put_in_tiles(const double *panel, int h, int w, double *l)
 {
   for (int first = 0; first < h;)
   {
-    constexpr int tiles_together = 8; // whose rows of a column follow each other in the panel
+    constexpr int tiles_together = 8; // adjacent in the panel
     // Tiles without an end of the front or of the diagonal, side by side: the panel is read in long pieces.
     const int together = first >= w ? std::min(tiles_together, (h - first) / tile_rows) : 0;
     if (together > 1)

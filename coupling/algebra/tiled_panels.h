@@ -11,7 +11,7 @@
 namespace gestell::coupling
 {
 
-/// The columns of L of some fronts, which must outlive it, as TiledFactor wants them.
+/// The columns of L of some fronts in the layout of TiledFactor; the fronts must outlive it.
 class TiledPanels
 {
 public:
@@ -21,7 +21,7 @@ public:
 
   std::ptrdiff_t size() const { return place_.back(); } ///< numbers, stored or not
   void           reserve();
-  /// @param panel [rows x columns] of which the lower triangle counts.
+  /// @param panel  [rows x columns], of which the lower triangle is used.
   void put(int front, const double *panel);
   void release() { L_ = LargeArray(); }
   bool released() const { return !L_.data(); }

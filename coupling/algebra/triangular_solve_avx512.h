@@ -5,7 +5,7 @@
 namespace gestell::coupling
 {
 
-/// Those of tile_kernels.h for processors with AVX-512 alone.
+/// The kernels of tile_kernels.h only for processors with AVX-512.
 const TriangularSolveKernels &avx512_triangular_solve_kernels();
 const AlgebraKernels         &avx512_block_algebra();
 

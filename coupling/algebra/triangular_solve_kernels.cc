@@ -19,7 +19,7 @@ constexpr TriangularSolveKernels any_processor = {sweeps_of<Single>, sweeps_of<N
                                                   sweeps_of<Block<Four, 3, 4>>};
 constexpr AlgebraKernels         any_algebra   = {algebra_of<Narrow>, algebra_of<Wide>};
 
-/// Whether the kernels for AVX-512 are there, wanted, and within what the processor can do.
+/// Whether kernels for AVX-512 are compiled, not disabled and supported by the processor.
 bool has_avx512()
 {
 #if defined(GESTELL_AVX512_KERNELS)
@@ -43,7 +43,7 @@ const TriangularSolveKernels &triangular_solve_kernels()
 namespace
 {
 
-/// Of kernels for few and for many columns.
+/// Whether the kernel for many columns is to be used.
 bool wants_many(int columns)
 {
   return columns > triangular_solve_kernels()[1].columns;

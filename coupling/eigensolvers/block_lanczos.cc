@@ -49,7 +49,7 @@ struct EigenPairs
   MatrixXd vectors;
 };
 
-/// Of a symmetric matrix; the same on all processes, which decide by it.
+/// Eigenpairs of a symmetric matrix; the same on all processes, whose decisions depend on it.
 EigenPairs eigen(const MatrixXd &A, const InverseStiffness &among)
 {
   const SymmetricEigenSolver solved(A);
@@ -142,7 +142,7 @@ void BlockLanczos::start_block()
     if (pass == 0 && (norms(product(X, MX)).array() <= 1e-7 * before.array()).all())
       X = MultiVector(n_, 0), MX = MultiVector(n_, 0);
   }
-  inverse_->solve_in_place(MX); // what of it has no mass would never leave the space
+  inverse_->solve_in_place(MX); // removes parts without mass, which would stay in the space
   std::swap(X, MX);
   M_.multiply(X, MX);
   const VectorXd scale = norms(product(X, MX));
@@ -157,7 +157,7 @@ void BlockLanczos::start_block()
   exhausted_ = next_.columns() == 0;
 }
 
-/// next_, orthogonal to the space but for rounding, becomes orthonormal; E_ <- next_^T M (what it was).
+/// Orthonormalises next_, which is orthogonal to the space up to rounding; E_ <- next_^T M (old next_).
 void BlockLanczos::set_next(const VectorXd &scale)
 {
   E_ = MatrixXd::Identity(next_.columns(), next_.columns());
@@ -178,7 +178,7 @@ void BlockLanczos::set_next(const VectorXd &scale)
     next_.transform(F);
     M_next_.transform(F);
     E_ = (root.asDiagonal() * U.transpose() * size.asDiagonal() * E_).eval();
-    // of the same eigenvalue, from which once is enough: 1e-16 / 1e-6 is left, the break-down
+    // the same eigenvalue, above which one pass is sufficient: rounding is then at most 1e-16 / 1e-6
     constexpr double well_apart = 1e-6;
     if (rank == 0 || (dropped == 0 && lambda(0) > well_apart))
       break;
@@ -197,7 +197,7 @@ void BlockLanczos::step()
   T_.bottomLeftCorner(b, k) = E_;
   T_.topRightCorner(k, b)   = E_.transpose();
 
-  std::swap(next_, M_next_); // the old block lies in the space; what M made of it becomes the next
+  std::swap(next_, M_next_); // the old block is part of the space; its product with M becomes the next block
   inverse_->solve_in_place(next_);
   M_.multiply(next_, M_next_);
   const VectorXd scale = norms(product(next_, M_next_));
@@ -283,7 +283,7 @@ void BlockLanczos::find(int count)
       restart(std::min(Q_.columns(), std::max(count + options_.block, room_ / 2)));
     }
     step();
-    constexpr double sparing = 1.05; // growth of the space from which convergence is looked at again
+    constexpr double sparing = 1.05; // growth of the space after which convergence is checked again
     if (exhausted_ || Q_.columns() >= int(sparing * double(theta_.size())))
       solve_projected();
   }

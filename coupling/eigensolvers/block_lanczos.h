@@ -14,12 +14,12 @@
 namespace gestell::coupling
 {
 
-/// C^-1, applied to many columns at once with their rows in an order that suits it.
+/// C^-1, applied to many columns at once, with their rows in the order of the factor.
 class InverseStiffness
 {
 public:
   virtual ~InverseStiffness() = default;
-  /// X <- C^-1 X, of which row k is that of coordinate order()[k].
+  /// X <- C^-1 X; row k of X is that of coordinate order()[k].
   virtual void                    solve_in_place(MultiVector &X) const = 0;
   virtual const std::vector<int> &order() const                        = 0;
   /// Coordinates (ascending) without motion.
@@ -28,13 +28,13 @@ public:
   /// X [coordinates x k] <- C^-1 X.
   virtual void solve_columns(Eigen::Ref<Eigen::MatrixXd> X) const;
 
-  // Where several processes have rows of X each, all of them do the same at the same time:
+  // If several processes have rows of X each, all of them call the following functions together:
 
   /// The first coordinates here are owned by this process, the others by another process.
   virtual int owned() const { return int(order().size()); }
-  /// X [coordinates x k]: where another owns them, motions as they are there.
+  /// X [coordinates x k]: copies the values of coordinates that another process owns.
   virtual void complete(Eigen::MatrixXd &) const {}
-  /// The same for loads: what lies here on another's coordinates is added there.
+  /// The same for loads: adds the values at coordinates of another process there.
   virtual void add_up(Eigen::MatrixXd &) const {}
 
   /// Coordinates, those of other processes included.
@@ -47,7 +47,7 @@ public:
   virtual int place(int row) const { return row; }
 };
 
-/// By the factor, which must outlive it, as the factor eliminates.
+/// By a factor, which must outlive it, in its order of elimination.
 class InverseByFactor final : public InverseStiffness
 {
 public:
@@ -66,7 +66,7 @@ private:
   std::vector<int>      order_, held_;
 };
 
-/// By any function that solves for the columns of a matrix; slower, for the columns are copied.
+/// By any function that solves for the columns of a matrix; slower, because the columns are copied.
 class InverseByColumns final : public InverseStiffness
 {
 public:
@@ -95,11 +95,11 @@ class ModeSearch
 public:
   virtual ~ModeSearch() = default;
 
-  /// Goes on until the lowest `count` modes are found and a gap above them, or all modes there are.
+  /// Continues until the lowest `count` modes and a gap above them are found, or all existing modes.
   /// @throws ConvergenceFailure with the number found: M has a lower rank, or too many steps.
   virtual void find(int count) = 0;
 
-  /// The lowest of those found, in an unbroken sequence.
+  /// The lowest modes found, without a missing one between them.
   virtual LowestModes modes(int count) const = 0;
 
   /// A frequency range [rad/s] without a found mode, and the number of found modes below it, for verification by
@@ -118,14 +118,14 @@ public:
  * The lowest modes of (C - omega^2 M) v = 0 by block Lanczos for A = C^-1 M in the inner product of M.
  *
  * One solution with a block of right-hand sides costs little more than one with a single vector, and a block finds
- * frequencies that are repeated as often as it has columns.  Every step appends A times the last block, made orthogonal
- * to all before (M-orthonormal Q, fully reorthogonalised); the projected T = Q^T M A Q gives
+ * frequencies with a multiplicity up to its number of columns.  Every step appends A times the last block,
+ * orthogonalised to all before (M-orthonormal Q, fully reorthogonalised); the projected T = Q^T M A Q gives
  *
  *     T s = theta s,   omega = theta^(-1/2),   v = Q s,   |A v - theta v|_M = |E s| = r
  *
- * with E the coupling of T to the next block.  Since A is self-adjoint in the inner product of M, an exact theta lies
- * within r of the computed one: |delta omega| / omega <= r / (2 theta - 2 r), and about the square of that where the
- * frequency stands alone.
+ * where E is the coupling of T to the next block.  Because A is self-adjoint in the inner product of M, there is an
+ * exact theta within r of the computed one: |delta omega| / omega <= r / (2 theta - 2 r), and about the square of that
+ * for an isolated frequency.
  *
  * If the inverse fixes coordinates, the modes are those of the fixed structure. A block that breaks down is continued
  * with arbitrary vectors, until the whole range of M is used. The space restarts from its best vectors when it would
@@ -138,14 +138,14 @@ class BlockLanczos final : public ModeSearch
 public:
   struct Options
   {
-    /// Right-hand sides at once, >= 1.  Eight take as long as twelve or sixteen in all, with fewer vectors to keep.
+    /// Number of right-hand sides at once, >= 1.  Eight take as long in total as twelve or sixteen, with less memory.
     int    block     = 8;
-    double tolerance = 1e-8; ///< r / theta from which a mode counts as found
-    int    room      = 0;    ///< vectors of the space held at most; 0: 3.2 GB of them, and enough for the modes wanted
+    double tolerance = 1e-8; ///< r / theta below which a mode is accepted
+    int    room      = 0;    ///< largest number of vectors of the space; 0: 3.2 GB, and enough for the modes requested
   };
 
-  /// @param M      [n x n] symmetric, positive semidefinite, both triangles stored; of several processes each has a
-  ///               part, whose sum is the whole.
+  /// @param M      [n x n] symmetric, positive semidefinite, both triangles stored; with several processes each has a
+  ///               part of the sum.
   /// @param known  modes found elsewhere: part of the space from the start.
   BlockLanczos(const Eigen::SparseMatrix<double> &M, std::shared_ptr<const InverseStiffness> inverse,
                const Options &options, const LowestModes &known = {});
@@ -155,9 +155,9 @@ public:
   Gap         gap_above(int count) const override;
   LowestModes values(int count) const; ///< modes() without V
 
-  int  n_found() const;                           ///< in an unbroken sequence from the lowest
+  int  n_found() const;                           ///< lowest modes found without a missing one
   int  n_vectors() const { return Q_.columns(); } ///< of the space
-  bool exhausted() const { return exhausted_; }   ///< the space has the whole range of M
+  bool exhausted() const { return exhausted_; }   ///< the space spans the whole range of M
 
 private:
   Eigen::MatrixXd product(const MultiVector &X, const MultiVector &MX) const;

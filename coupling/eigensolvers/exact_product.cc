@@ -1,4 +1,4 @@
-// Compiled without fused products: each of the sums below is meant to be rounded where it stands.
+// Compiled without fused multiply-add: each sum below must be rounded as written.
 
 #include "coupling/eigensolvers/exact_product.h"
 
@@ -21,7 +21,7 @@ using Rows          = Eigen::Array<double, lanes, Eigen::Dynamic>;
 
 #if defined(__FMA__)
 
-/// What the product a b loses.
+/// Rounding error of the product a b.
 inline Lanes lost_by_product(double a, const Lanes &b, const Lanes &product)
 {
   Lanes lost;
@@ -41,7 +41,7 @@ T upper_half(const T &x)
   return scaled - (scaled - x);
 }
 
-/// What the product a b loses (Dekker).
+/// Rounding error of the product a b (Dekker).
 inline Lanes lost_by_product(double a, const Lanes &b, const Lanes &product)
 {
   const double a_upper = upper_half(a), a_lower = a - a_upper;
@@ -60,7 +60,7 @@ Eigen::MatrixXd exact_product(const Eigen::SparseMatrix<double> &A, const Eigen:
   const int      *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
   const double   *a = A.valuePtr();
   Eigen::MatrixXd Y(n, X.cols());
-  Rows            x(lanes, n); // row i of X, eight columns of it, lies together
+  Rows            x(lanes, n); // row i of X: eight columns, contiguous
   for (Eigen::Index first = 0; first < X.cols(); first += lanes)
   {
     const auto width = std::min<Eigen::Index>(lanes, X.cols() - first);

@@ -7,10 +7,10 @@ namespace gestell::coupling
 {
 
 /**
- * A X for a symmetric sparse A (both triangles stored), every entry as if summed in twice the working precision.
+ * A X for a symmetric sparse A (both triangles stored), with every entry summed in twice the working precision.
  *
- * For stiffness times motions that hardly strain, whose large terms cancel: in X^T A X their rounding would be seen in
- * the lowest frequencies, as something that changes with the solver that made X.
+ * For the product of the stiffness with nearly rigid motions, whose large terms cancel: otherwise the rounding in X^T A
+ * X would make the lowest frequencies depend on the solver of X.
  *
  * Source: Dot2 of Ogita, Rump & Oishi, SIAM J. Sci. Comput. 26(6), 2005, 1955-1988.
  */

@@ -28,13 +28,13 @@ double lowest_quotient(const SparseMatrix &C, const SparseMatrix &M)
   return std::isfinite(lowest) ? lowest : 1.;
 }
 
-/// Of C if that is regular by its pivots, or of C + s M.
+/// Factor of C if C is regular according to its pivots; otherwise of C + s M.
 SparseCholesky regular_factor(const SparseMatrix &C, const SparseMatrix &M)
 {
   try
   {
     SparseCholesky   factor(C);
-    constexpr double regular_pivots = 1e-12; // ratio of pivots: below, C is singular but for rounding
+    constexpr double regular_pivots = 1e-12; // ratio of pivots: below it C is singular up to rounding
     if (factor.pivot_ratio() > regular_pivots)
       return factor;
   }
@@ -55,7 +55,7 @@ SparseCholesky regular_factor(const SparseMatrix &C, const SparseMatrix &M)
   }
 }
 
-/// Rayleigh quotients of M-normal columns; 0 for rigid motions, of which v^T C v is what rounding left.
+/// Rayleigh quotients of M-normal columns; 0 for rigid motions, whose v^T C v is rounding.
 VectorXd frequencies(const Eigen::Ref<const MatrixXd> &V, const SparseMatrix &C, const SparseMatrix &magnitude)
 {
   VectorXd omega(V.cols());

@@ -101,7 +101,7 @@ void SturmCheckedModes::look_for_missing(LowestModes known, int count, double om
   const auto missing = [&] { return count - int((known.omega.array() < omega).count()); };
   for (int block = std::max(options_.block, missing()); missing() > 0; block *= 2)
   {
-    constexpr int largest_block = 200; // with which missing modes are looked for: more are no oversight of a search
+    constexpr int largest_block = 200; // largest block for missing modes: more are not an oversight
     if (block > largest_block)
       throw ConvergenceFailure(kind_ + ": " + std::to_string(missing()) + " of " + std::to_string(count) + " below " +
                                rounded(omega / two_pi) + " Hz are not found; request another number of modes");
@@ -110,8 +110,8 @@ void SturmCheckedModes::look_for_missing(LowestModes known, int count, double om
   }
 }
 
-/// E, of the size growth * eps * diag(C), moves omega_j^2 by v_j^T E v_j: past the shift it must not.  The mode above
-/// the gap, which is not known, is taken for like those below it.
+/// E, of size growth * eps * diag(C), moves omega_j^2 by v_j^T E v_j, which must not pass the shift. The unknown mode
+/// above the gap is assumed to be as sensitive as those below it.
 double SturmCheckedModes::largest_growth(double shift) const
 {
   constexpr double      eps      = std::numeric_limits<double>::epsilon();
@@ -125,7 +125,7 @@ Inertia SturmCheckedModes::count_in_gap(double &omega)
 {
   Inertia best{0, INFINITY};
   double  least = INFINITY; // growth over what is allowed
-  // in a gap, tried in turn: the middle is farthest from both modes
+  // places in a gap, tried in this order: the middle is farthest from both modes
   constexpr double places[] = {0.5, 0.3, 0.7, 0.2, 0.8};
   for (const double place : places)
   {

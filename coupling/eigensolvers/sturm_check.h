@@ -30,18 +30,18 @@ public:
   /// The lowest `count` of those found.
   LowestModes lowest(int count);
 
-  /// The lowest `count`, all there are below a gap: find(), finish() and confirm() until none is missing.
+  /// The lowest `count`, complete below a gap: find(), finish() and confirm() until none is missing.
   /// @throws ConvergenceFailure as these do, and if some are missing in every round.
   LowestModes find_all(int count);
 
   /// Ends the search: frees the memory of the search and of the factor.
   void finish();
 
-  /// After finish(): the modes looked for last, and some more, up to a gap.  If dense, all there are.
+  /// After finish(): the modes requested last, and some more, up to a gap.  If dense, all modes.
   const LowestModes &found() const { return found_; }
 
   /**
-   * After finish(): whether the modes found are all there are below the gap.
+   * After finish(): whether no mode below the gap is missing.
    *
    * If not, the missing ones have been computed, and the frame's factor is available again; repeat all uses of the
    * modes, starting at find().
@@ -65,7 +65,7 @@ protected:
 private:
   virtual int                         n() const           = 0; ///< rows of the modes
   virtual LowestModes                 all() const         = 0; ///< modes, densely
-  virtual void                        restore()           = 0; ///< what search() needs
+  virtual void                        restore()           = 0; ///< data for search()
   virtual void                        release()           = 0; ///< its memory
   virtual Inertia                     below(double omega) = 0;
   virtual std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const = 0;

@@ -71,14 +71,14 @@ private:
     for (const PlacedPlay &own : placed())
       balance_.leave_out(own.first_measure, own.n_measures);
     double        before           = std::numeric_limits<double>::infinity();
-    constexpr int most_corrections = 30; // Newton's: a few, unless plays open and close in turn
+    constexpr int most_corrections = 30; // of Newton's method: a few, unless clearances open and close alternately
     for (int k = 0; k < most_corrections; ++k)
     {
       const double size = correct(placed()), scale = std::max(q_.cwiseQuotient(sizes_).cwiseAbs().maxCoeff(), 1e-3);
       if (!std::isfinite(size))
         return false;
       constexpr double seated = 1e-9; // correction, against the size of q: the equilibrium is found later
-      // of the size of q: where corrections so small fall no more, rounding is left
+      // relative to q: below it corrections that no longer decrease are rounding
       constexpr double near_rounding = 1e-6;
       if (size <= seated * scale || (size <= near_rounding * scale && size > 0.3 * before))
         return true;
@@ -120,7 +120,7 @@ private:
     return change.head(n).cwiseQuotient(sizes_).cwiseAbs().maxCoeff();
   }
 
-  /// Stiffnesses and cosines in one matrix: to columns, then rows, of equal size.
+  /// Solves with rows and columns scaled to equal size, since the matrix mixes stiffnesses and cosines.
   static VectorXd scaled_solution(const MatrixXd &A, const VectorXd &b)
   {
     const auto     inverse = [](double size) { return size > 0. ? 1. / size : 1.; };
@@ -137,7 +137,7 @@ private:
     for (std::size_t i = 0; i < own.size(); ++i)
     {
       const double force = seats_[i].force.norm();
-      // of a play, against all forces: rounding, as in the equilibrium of static starts
+      // relative to all forces: rounding, as in the equilibrium of static starts
       constexpr double no_force = 1e-9;
       if (force > no_force * balance_.forces().sum())
         seats_[i].target = -(own[i].play.gap + own[i].structure->yielding(force)) / force * seats_[i].force;

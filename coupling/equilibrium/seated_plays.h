@@ -6,14 +6,14 @@ namespace gestell::coupling
 {
 
 /**
- * Seating of plays that a motion closes but that are open at a state: on the side loaded by weight and inertia,
- * docs/theory/start.md (16). A play without force stays centred; one in tension is left to its law.
+ * Seating of clearances that a motion closes but that are open at a state: on the side loaded by weight and inertia,
+ * docs/theory/start.md (16).  A clearance without force remains centred; for one in tension the law decides.
  *
- * The position closes joints and keeps what is held; it is where the search for the equilibrium (15) begins.
+ * The position satisfies the joints and keeps the fixed coordinates; the equilibrium search (15) starts there.
  *
- * @param held    what is kept where it is, as for held_equilibrium()
+ * @param held    fixed coordinates, as for held_equilibrium()
  * @param motion  of the machine
- * @return q [n]; that of the state where no play is open, or where no such position is found
+ * @return q [n]; that of the state if no clearance is open, or if no such position is found
  */
 Eigen::VectorXd seated_plays(Machine &machine, const KnownStart &held, const SteadyMotion &motion,
                              const InitialState &state);

@@ -63,7 +63,7 @@ Growth fastest_growth(const SmallMotions &motions, const MatrixXd &M)
   }
   catch (const std::invalid_argument &)
   {
-    // neither mass nor stiffness: such a motion has no growth
+    // neither mass nor stiffness: the motion does not grow
   }
   return growth;
 }

@@ -10,13 +10,13 @@ namespace gestell::coupling
 /// Small motions q = Z y about a position at rest, Z^T M Z y'' + K y = 0.
 struct SmallMotions
 {
-  Eigen::MatrixXd Z;                   ///< [n x m] motions that joints allow; virtual coordinates do not move
+  Eigen::MatrixXd Z;                   ///< [n x m] motions that joints allow; virtual coordinates are fixed
   Eigen::MatrixXd K;                   ///< [m x m]
   bool            circulatory = false; ///< with follower forces: K is not symmetric
 };
 
-/// @param C  [n x n] the stiffness of `balance` where it was evaluated last; of forces that have a potential its
-///           symmetric part counts
+/// @param C  [n x n] the stiffness of `balance` at its last evaluation; for conservative forces only its symmetric part
+///   is used
 SmallMotions small_motions(StaticBalance &balance, const Eigen::MatrixXd &C);
 
 /// A motion that leaves an equilibrium.
@@ -30,7 +30,7 @@ struct Growth
   std::string text(const Machine &machine) const; ///< "the motion of slide grows by exp(3 t/s)"
 };
 
-/// The fastest one that falls; if none does, the fastest flutter.
+/// The fastest diverging motion; if there is none, the fastest flutter.
 /// @param M  [n x n]
 Growth fastest_growth(const SmallMotions &motions, const Eigen::MatrixXd &M);
 

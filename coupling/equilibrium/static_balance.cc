@@ -94,7 +94,7 @@ void StaticBalance::evaluate(const VectorXd &q, const VectorXd &lambda, double s
   }
 }
 
-/// Rows of what is held, behind those of the joints.
+/// Adds the rows of the fixed coordinates after those of the joints.
 void StaticBalance::hold(const VectorXd &q, MatrixXd &A, VectorXd &open)
 {
   for (const auto &[row, shift] : held_->shifts)
@@ -130,7 +130,7 @@ MatrixXd StaticBalance::with_closed_chains(const VectorXd &q, MatrixXd saddle) c
 namespace
 {
 
-/// Share of the kinetic energy that the frame alone has in a motion.
+/// Share of the frame in the kinetic energy of a motion.
 double share_of_frame(const Machine &machine, const VectorXd &motion)
 {
   const MatrixXd M     = dense_mass(machine);
@@ -144,7 +144,7 @@ double share_of_frame(const Machine &machine, const VectorXd &motion)
 std::string mechanism_mode_text(const Machine &machine, const VectorXd &motion)
 {
   const ReducedFrame *frame      = machine.model().reduced_frame();
-  constexpr double    takes_part = 0.01; // of the kinetic energy of a motion: the rest follows it through springs
+  constexpr double    takes_part = 0.01; // share of the kinetic energy of a motion: others only follow through springs
   if (frame && !frame->facts.free_motions.empty() && share_of_frame(machine, motion) > takes_part)
   {
     std::string free;

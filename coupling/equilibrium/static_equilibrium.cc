@@ -23,12 +23,12 @@ namespace
 constexpr int    most_iterations = 50, most_parts = 64; ///< Newton's take some ten, each of up to 64 parts of the way
 constexpr double converged = 1e-13;                     ///< correction, against the size of q
 constexpr double singular  = 1e-14;                     ///< smallest pivot of the scaled saddle matrix
-constexpr double balanced  = 1e-9; ///< residual beside its forces that counts as none along a free motion
-constexpr double stays     = 1e-6; ///< a start this near an equilibrium is meant to be it
-constexpr double soft      = 1e-8; ///< stiffness of a coordinate beside the stiffest, below which it counts as this
+constexpr double balanced  = 1e-9; ///< residual relative to its forces that is treated as zero along a rigid-body mode
+constexpr double stays     = 1e-6; ///< an initial position this close to an equilibrium is accepted as one
+constexpr double soft      = 1e-8; ///< smallest stiffness of a coordinate relative to the stiffest
 constexpr double long_way  = 0.5;  ///< a correction beyond is gone in parts
 
-// Motions and positions count in coordinate_sizes().
+// Motions and positions are measured in coordinate_sizes().
 
 // Relaxation.  Steps count in the time in which the machine's forces move its masses by its size: about 0.3 s of a
 // metre under its weight.
@@ -54,7 +54,7 @@ public:
   {
   }
 
-  /// From now on the inertia takes the loads along motions that nothing holds.
+  /// After this call inertia balances the loads along unconstrained motions.
   void relieve()
   {
     const auto [Z, K, circulatory] = admissible();
@@ -63,20 +63,20 @@ public:
     if (circulatory)
     {
       if (Eigen::FullPivLU<MatrixXd>(K).setThreshold(cancelled).isInvertible())
-        return; // nothing floats
+        return; // no motion is free
       throw std::invalid_argument(
           "inertia relief is not available for follower forces, such as a load with carried_by, on an unsupported "
           "machine: no single acceleration balances them; support the machine, or start with rule = \"given\"");
     }
     const DenseModes modes = dense_modes(K, Z.transpose() * M_ * Z, cancelled);
     const auto       n     = ((modes.omega.array() + modes.growth.array()) == 0.).count();
-    floating_              = Z * modes.V.leftCols(n); // first, for omega ascends; what grows is no free motion
+    floating_              = Z * modes.V.leftCols(n); // first ones, as omega ascends; growing motions are excluded
     if (modes.growth.head(n).any())
       floating_.resize(n_, 0);
     inertia_ = M_ * floating_;
   }
 
-  /// Tells the acceleration of a machine that floats.
+  /// States the acceleration of an unsupported machine.
   void tell_relief()
   {
     if (floating_.cols() == 0)
@@ -154,7 +154,7 @@ public:
   }
 
 private:
-  /// Of a motion or a position.
+  /// Largest entry of a motion or position, relative to the sizes of the coordinates.
   double largest(const VectorXd &x) const { return n_ > 0 ? x.cwiseQuotient(sizes_).cwiseAbs().maxCoeff() : 0.; }
 
   SmallMotions admissible()
@@ -187,7 +187,7 @@ private:
     if (floating_.cols() == 0)
       return;
     residual.head(n_) -= inertia_ * (floating_.transpose() * residual.head(n_));
-    // Springs against motions along which nothing acts any more: they carry no force, but make the matrix regular.
+    // Springs for motions without forces: they carry no force, but make the matrix regular.
     const double spring = saddle.topLeftCorner(n_, n_).trace() / M_.trace();
     saddle.topLeftCorner(n_, n_) += spring * inertia_ * inertia_.transpose();
   }
@@ -210,7 +210,7 @@ private:
     return false;
   }
 
-  /// Scaled to rows and columns of equal size: energies of large motions beside cosines.
+  /// Scaling to rows and columns of equal size: energies of large motions are mixed with cosines.
   VectorXd scale_of(const MatrixXd &saddle) const
   {
     const int      size = int(saddle.rows());
@@ -266,7 +266,7 @@ private:
       if (!delta.allFinite())
         return false;
       const double size = largest(delta.head(n_)), scale = std::max(largest(q_), 1e-6);
-      // A long way is gone in parts: another equilibrium lies behind the next turn.
+      // A large correction is divided: there may be another equilibrium after the next revolution.
       const double part = size > long_way ? long_way / size : 1.;
       q_ += part * delta.head(n_);
       lambda_ += part * delta.tail(lambda_.size());
@@ -278,8 +278,8 @@ private:
   }
 
   /**
-   * Lets the machine go from a position and takes its velocity away after every step: implicit Euler with steps that
-   * grow,  M (q_k+1 - q_k)/h^2 + r(q_k+1, lambda) = 0,  each of which lowers the energy, docs/theory/start.md (12).
+   * Releases the machine from a position and removes its velocity after every step: implicit Euler with growing steps,
+   * M (q_k+1 - q_k)/h^2 + r(q_k+1, lambda) = 0,  each of which reduces the energy, docs/theory/start.md (12).
    */
   bool relax(const VectorXd &begin)
   {
@@ -347,7 +347,7 @@ private:
     return way.cwiseAbs().cwiseQuotient(most).maxCoeff();
   }
 
-  /// @return iterations, most_of_step + 1 if there were not enough
+  /// @return number of iterations; most_of_step + 1 if they were not sufficient
   int implicit_step(const VectorXd &before, double h)
   {
     MatrixXd saddle;
@@ -370,7 +370,7 @@ private:
     return most_of_step + 1;
   }
 
-  /// Newton's method where the relaxation has come to rest.
+  /// Newton's method after the relaxation has come to rest.
   bool finish()
   {
     const VectorXd q = q_, lambda = lambda_;
@@ -391,7 +391,7 @@ private:
   VectorXd                 q_, lambda_;
   MatrixXd                 M_;
   MatrixXd                 floating_, inertia_; ///< R [n x k] of the motions that inertia relieves, and M R
-  std::string              loose_; ///< what is said of the motion along which an unbalanced force finds no stiffness
+  std::string              loose_;              ///< note on a motion with a force and no stiffness
   std::vector<std::string> notes_;
 };
 

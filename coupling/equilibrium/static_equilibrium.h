@@ -16,7 +16,7 @@ enum class Drift
 enum class Floating
 {
   refused, ///< there is no equilibrium, unless no force acts along them
-  relieved ///< the inertia of the machine takes them
+  relieved ///< the inertia of the machine balances them
 };
 
 /**
@@ -47,18 +47,18 @@ struct HeldEquilibrium
 };
 
 /**
- * The same with fixed coordinates: given coordinates of bodies and measures keep their values,
- * driven joints are at `position.shifts`; constraint forces are arbitrary.  Of loads that vary with
- * time the constant part acts; technological forces and drives are off (Acting::structure), since the machine is at
- * rest. A motion without stiffness along which no force acts stays where it is.
+ * The same with fixed coordinates: given coordinates of bodies and measures keep their values, driven joints are at
+ * `position.shifts`; constraint forces are arbitrary.  Of loads that vary with time the constant part acts;
+ * technological forces and drives are off (Acting::structure), since the machine is at rest. A motion without stiffness
+ * along which no force acts remains unchanged.
  *
- * Of a machine in motion everything acts, what is held goes on with an acceleration that no force holds it to, and
- * loads have the inertia and the damping of the motion beside them, docs/theory/start.md (15).
+ * For a machine in motion all forces act, fixed coordinates have an unknown acceleration instead of a constraint force,
+ * and inertia and damping forces of the motion are added to the loads, docs/theory/start.md (15).
  *
- * @param position  assembled, chains that play opens just touching
- * @param motion    of a machine that moves, or null
- * @param from      where the search begins; null: at the position
- * @throws std::invalid_argument as static_equilibrium()
+ * @param position  assembled, with chains that clearances open just touching
+ * @param motion    of a machine in motion, or null
+ * @param from      start of the search; null: `position`
+ * @throws std::invalid_argument as static_equilibrium() does
  */
 HeldEquilibrium held_equilibrium(Machine &machine, const KnownStart &position, const SteadyMotion *motion = nullptr,
                                  const InitialState *from = nullptr);

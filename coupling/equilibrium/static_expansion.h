@@ -7,8 +7,8 @@ namespace gestell::coupling
 {
 
 /**
- * State of a machine on the unreduced frame from that of the same machine on the reduced one: interface and bodies take
- * their values over, the inside of the frame follows statically,
+ * State of a machine on the unreduced frame from that of the same machine on the reduced one: values of interface and
+ * bodies are copied, the internal DOFs of the frame follow statically,
  *
  *     q2 = C22^-1 (f_s2 - C21 q1),     q2' = -C22^-1 C21 q1',
  *

@@ -20,7 +20,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double torn = 0.01; ///< opening of a closed chain beside the motions that make it; deflections make 1e-3
+constexpr double torn = 0.01; ///< opening of a closed chain relative to the motions that cause it; deflections: 1e-3
 
 /// Linear demands A x = b on a motion, for several right-hand sides at once.
 struct Demands
@@ -29,7 +29,7 @@ struct Demands
   MatrixXd b; ///< [k x number of motions]
 };
 
-/// Satisfies demands one after the other: what comes later has only the freedom that is left.
+/// Satisfies demands one after the other: each can use only the DOFs that the previous ones leave.
 class Freedom
 {
 public:
@@ -39,7 +39,8 @@ public:
   {
   }
 
-  /// By least squares, with the smallest motion.  @return the rank of the demands in what was free
+  /// Satisfies the demands by least squares with the smallest motion.
+  /// @return the rank of the demands in the remaining DOFs
   Eigen::Index satisfy(const Demands &demands)
   {
     if (demands.A.rows() == 0 || Z_.cols() == 0)
@@ -51,7 +52,7 @@ public:
     return solver.rank();
   }
 
-  /// Of rows of the size `whole`: nothing, if they have no part in what is free.
+  /// For rows of the size `whole`: no effect if they have no part in the remaining DOFs.
   bool satisfy(const Demands &demands, double whole)
   {
     const MatrixXd P         = demands.A * Z_;
@@ -71,7 +72,7 @@ private:
   MatrixXd Z_, X_;
 };
 
-/// 1/sqrt(m) of bodies; what rests or is no motion has none.
+/// 1/sqrt(m) of bodies; 0 for coordinates at rest or without mass.
 VectorXd motion_scale(const Machine &machine)
 {
   const MatrixXd M     = dense_mass(machine);
@@ -83,7 +84,7 @@ VectorXd motion_scale(const Machine &machine)
   return scale;
 }
 
-/// Columns of right-hand sides: v, a, then S.
+/// Right-hand sides as columns: v, a, S.
 MatrixXd sides(const VectorXd &rate, const VectorXd &acceleration, Eigen::Index n_held)
 {
   MatrixXd b = MatrixXd::Zero(rate.size(), 2 + n_held);
@@ -102,7 +103,7 @@ Demands joint_demands(const Machine &machine, const LocalState &local, Eigen::In
   return {joint_jacobian(machine, G), sides(-rate, -bias, n_held)};
 }
 
-/// Rows of what has a given speed; its acceleration is zero, and a unit one in S.
+/// Rows of coordinates with a given speed; their acceleration is zero, with a unit column in S.
 Demands given_demands(const Machine &machine, const KnownStart &known, const VectorXd &q, const VectorXd &v)
 {
   const int             n = machine.size();
@@ -135,7 +136,7 @@ Demands given_demands(const Machine &machine, const KnownStart &known, const Vec
   return result;
 }
 
-/// Compliant joints as if they were ideal.
+/// Demands of compliant joints, treated as ideal joints.
 Demands compliant_demands(const Machine &machine, const LocalState &local, Eigen::Index n_held)
 {
   std::vector<VectorXd> rows;
@@ -170,7 +171,7 @@ struct SatisfiedPlays
   std::vector<PlacedPlay> determined;
 };
 
-/// Both sides of plays move together, and what presses on a stop stays there.
+/// Closes plays: both sides move together, and a play that presses on its stop stays there.
 SatisfiedPlays satisfy_plays(const Machine &machine, const VectorXd &q, const VectorXd &v, const VectorXd &scale,
                              Freedom &freedom, Eigen::Index n_held)
 {
@@ -203,8 +204,8 @@ Demands elastic_demands(const Machine &machine, const VectorXd &q, const MatrixX
       "give the speeds of the drives only, the joints determine the others");
 }
 
-/// Least squares may leave elastic closures open: not by more than their deflections explain, beside what a motion x of
-/// the same kinetic energy can open at all, |A_i x| <= |A_i scale| |x / scale|.
+/// Least squares may leave elastic closures open, but not by more than their deflections explain, relative to the
+/// largest opening by a motion x of the same kinetic energy, |A_i x| <= |A_i scale| |x / scale|.
 void require_closed(const Demands &demands, const MatrixXd &X, const VectorXd &scale)
 {
   const MatrixXd open  = (demands.A * X - demands.b).cwiseAbs();
@@ -214,8 +215,8 @@ void require_closed(const Demands &demands, const MatrixXd &X, const VectorXd &s
     refuse_speeds();
 }
 
-/// A play of which both sides follow from given speeds and prescribed motions closes at once if these contradict each
-/// other.  Where one of them determines both sides, the play is a stop that the machine drives past.
+/// A clearance with both sides determined by given speeds and prescribed motions closes at once if these contradict
+/// each other.  If one of them determines both sides, the clearance is a stop that the machine passes.
 void require_agreement(const Machine &machine, const SatisfiedPlays &plays, const KnownStart &known, const VectorXd &q,
                        const MatrixXd &X)
 {
@@ -240,7 +241,7 @@ void require_agreement(const Machine &machine, const SatisfiedPlays &plays, cons
   }
 }
 
-/// One pass: v is right whatever `v_before`, a and its curvatures if that was v.
+/// One pass: v does not depend on `v_before`; a and its curvatures are correct if `v_before` equals v.
 SteadyMotion motion_with(const Machine &machine, const KnownStart &known, const VectorXd &q, const VectorXd &v_before)
 {
   LocalState local;

@@ -22,7 +22,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Positions given by angles, and the state kinematics makes of them.
+/// Positions that angles determine, and the state that follows by kinematics.
 struct Kinematics
 {
   std::vector<bool> given; ///< coordinates whose value is not unknown
@@ -45,7 +45,7 @@ Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
   const int  n = machine.size();
   Kinematics result{std::vector<bool>(n, false), -1, {start.t, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)}, {}};
   auto      &q = result.state.q, &v = result.state.v;
-  for (const Body &body : machine.model().bodies()) // other rotors stand in line with the first one given
+  for (const Body &body : machine.model().bodies()) // other rotors are aligned with the first one given
     if (body.kind == BodyKind::rotor && !start.angles.empty())
       q[body.coordinate] = start.angles.front().second;
   for (const auto &[name, angle] : start.angles)
@@ -66,7 +66,7 @@ Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
   return result;
 }
 
-/// DrivenEquilibrium of the machine in the coordinates that are not given, with the balances of all but the driver.
+/// Equilibrium in the coordinates that are not given, with the balance of all coordinates except the driver.
 class DrivenEquilibrium
 {
 public:
@@ -101,10 +101,10 @@ public:
     return (constant_ + local - elastic)(equations_);
   }
 
-  /// Largest force in the balance residual() was last asked for.
+  /// Largest force in the last evaluation of residual().
   double size_of_forces() const { return size_of_forces_; }
 
-  /// One Newton step for the residual at q; the step of a singular matrix is the shortest that helps most.
+  /// One Newton step for the residual at q; if the matrix is singular, the shortest step with the least residual.
   Eigen::VectorXd step(const Eigen::VectorXd &q, const Eigen::VectorXd &balance)
   {
     Eigen::MatrixXd dp(p_.size(), p_.size());
@@ -113,7 +113,7 @@ public:
     decompose(stiffness_ - Eigen::MatrixXd(W * dp * W.transpose()));
     if (solver_.rank() < static_cast<Eigen::Index>(unknown_.size()))
     {
-      // Open play gives no stiffness: closed elements show the way through it.
+      // Open play has no stiffness; the stiffness of closed elements gives the direction.
       Eigen::MatrixXd closed, damping;
       engaged_matrices(machine_, q, {}, closed, damping);
       decompose(stiffness_ + closed);
@@ -129,8 +129,8 @@ public:
   /// Whether the last step balances its forces to first order: not if one acts along a free motion.
   bool held() const { return held_; }
 
-  /// The first coordinate, those of the frame before the bodies it carries, that moves at least half as much as the one
-  /// that moves most in the motion the last matrix leaves free; -1 if there is none.
+  /// The first coordinate, with those of the frame before the bodies it carries, that moves at least half as much as
+  /// the largest in the unconstrained motion of the last matrix; -1 if there is none.
   int free_coordinate() const
   {
     const Eigen::MatrixXd free = solver_.null_space();
@@ -145,7 +145,7 @@ public:
   }
 
 private:
-  /// Scaled to unit diagonal, so that metres and radians compare.
+  /// Decomposes the tangent, scaled to unit diagonal to make metres and radians comparable.
   void decompose(const Eigen::MatrixXd &tangent)
   {
     const auto inverse_root = [&](int i) { return 1. / std::sqrt(std::max(std::abs(tangent(i, i)), 1e-300)); };
@@ -158,7 +158,7 @@ private:
           tangent(equations_[i], equations_[i]) == 0. ? 1. : inverse_root(equations_[i]);
     const Eigen::MatrixXd part = tangent(equations_, unknown_);
     matrix_                    = row_scale_.asDiagonal() * part * scale_.asDiagonal();
-    // Stiffness of a motion beside that of its coordinates below which it counts as free: reduction leaves up to 1e-10.
+    // Stiffness of a motion relative to that of its coordinates, if unconstrained: reduction leaves 1e-10.
     constexpr double least_singular = 1e-9;
     solver_                         = LeastSquaresSolver(matrix_, least_singular);
   }
@@ -208,8 +208,8 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
     const Eigen::VectorXd change = equilibrium.step(state.q, balance);
     if (!equilibrium.held())
       break;
-    // Through open play the residual stays what it is until contact: go on in doubled steps as long as it does not
-    // grow.
+    // While clearances are open the residual is constant until contact: continue in doubled steps as long as it does
+    // not grow.
     double          stretch = 1.;
     Eigen::VectorXd next    = equilibrium.residual(state.q + change);
     while (stretch < 1e12 && next.norm() > 0.5 * balance.norm() && change.norm() > 0.)
@@ -226,7 +226,7 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
     if (!balance.allFinite())
       break;
     const double unbalanced = balance.cwiseAbs().maxCoeff();
-    // Rounding ends the decrease.
+    // Rounding prevents a further decrease.
     if (unbalanced <= 1e-10 * equilibrium.size_of_forces() && (balance.norm() >= 0.3 * before || unbalanced == 0.))
       return state;
   }
@@ -236,7 +236,7 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
 namespace
 {
 
-/// The same known start with what has a given speed held in position `at`, and nothing else.
+/// The same known start with the coordinates of given speed fixed in position `at`, and no other condition.
 KnownStart held_at(const Machine &machine, const KnownStart &known, const InitialState &at)
 {
   KnownStart held = known;

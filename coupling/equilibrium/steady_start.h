@@ -16,14 +16,13 @@ struct SteadyStart
   std::vector<std::pair<std::string, double>> angles;
   std::vector<std::pair<std::string, double>> speeds;
   std::string                                 driver;
-  double                                      t = 0.; ///< [s] at which forces that depend on time are taken
+  double                                      t = 0.; ///< [s] at which forces that depend on time are evaluated
 };
 
 /**
- * Initial state of a steady motion (docs/theory/start.md): the frame rests, rotors turn as
- * given, sliders follow the closed elements kinematically, g(q) = 0, grad g . q' = 0, grad g . q'' = -q'^T g'' q'; the
- * positions are those of equilibrium with weights, element forces and the inertia of that motion; what sticks carries
- * no force,
+ * Initial state of a steady motion (docs/theory/start.md): the frame rests, rotors turn as given, sliders follow the
+ * closed elements kinematically, g(q) = 0, grad g. q' = 0, grad g. q'' = -q'^T g'' q'; the positions are those of
+ * equilibrium with weights, element forces and the inertia of that motion; sticking elements carry no force,
  *
  *     M q'' + B q' + C q = f_t + W p(q, q', q'').
  *
@@ -33,15 +32,16 @@ struct SteadyStart
 InitialState steady_start(Machine &machine, const SteadyStart &start);
 
 /**
- * The counterpart of steady_start() with joints: joints closed in position and rate, everything elastic in equilibrium
- * with the forces of the instant and with the inertia of its motion (docs/theory/start.md (15)),
+ * The counterpart of steady_start() with joints: joints satisfied in position and rate, all elastic parts in
+ * equilibrium with the forces of the instant and with the inertia of their motion (docs/theory/start.md (15)),
  *
  *     M (a + S alpha) + B v + C q = f_t + W p(t, q, v, a + S alpha),     g(t, q) = 0.
  *
  * alpha [n_h] accelerates the coordinates with given speed: the imbalance of the drives.
  *
- * @param known  as for assemble(); what has a given speed keeps its position, other positions are first guesses
- * @throws std::invalid_argument without a given speed, or as assemble(), steady_motion() and static_equilibrium()
+ * @param known  as for assemble(); coordinates with given speed keep their position, other positions are initial
+ *   guesses
+ * @throws std::invalid_argument without a given speed, or as assemble(), steady_motion() and static_equilibrium() do
  */
 InitialState steady_start(Machine &machine, const KnownStart &known);
 

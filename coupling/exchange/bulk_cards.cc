@@ -24,7 +24,7 @@ std::string_view first_field(std::string_view line)
   return trimmed(line.substr(0, std::min({line.find_first_of(",\t"), name_width, line.size()})));
 }
 
-/// A line that goes on with the card before: its first field is blank, or a mark that begins with + or *.
+/// Whether the line continues the card before: its first field is blank, or begins with + or *.
 bool is_continuation(std::string_view line)
 {
   const std::string_view first = first_field(line);
@@ -38,7 +38,7 @@ BulkCards::BulkCards(TextFile &file, std::set<std::string> wanted) : file_(file)
   while (file_.next())
     if (begins(trimmed(file_.line()), "BEGIN") && capitals(file_.line()).find("BULK") != std::string::npos)
       return;
-  file_.restart(); // bulk data alone, as in a punch file
+  file_.restart(); // only bulk data, as in a punch file
 }
 
 bool BulkCards::take_line()

@@ -27,7 +27,7 @@ public:
   const std::string &name() const { return name_; } ///< in capitals, without *
   long               line() const { return line_; } ///< of its first line
 
-  /// Fields after the name, blanks removed, line by line: 8 of each, or 4 of a large one.
+  /// Fields after the name, blanks removed, line by line: 8 per line, or 4 per line of a large card.
   const std::vector<std::string_view> &fields() const { return fields_; }
   const std::vector<long>             &lines() const { return lines_; } ///< of each field
 

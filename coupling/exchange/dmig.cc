@@ -23,7 +23,7 @@ constexpr std::size_t column_node = 1, column_component = 2, first_entry = 4, en
 constexpr long square = 1, rectangular = 2, symmetric = 6, rectangular_by_numbers = 9;
 constexpr long first_complex = 3, last_type = 4; ///< TIN of the header card: 1 and 2 are real, 3 and 4 complex
 
-/// Entries of one matrix, whose rows are numbered as they come.
+/// Entries of one matrix; rows are numbered in order of appearance.
 struct Collected
 {
   bool                    is_symmetric = false, is_left_out = false;
@@ -60,7 +60,7 @@ public:
   }
 
 private:
-  /// SPOINT, 1001, 1002 or SPOINT, 1001, THRU, 1010.
+  /// Reads SPOINT, 1001, 1002 or SPOINT, 1001, THRU, 1010.
   void read_points()
   {
     BulkCards cards(file_, {"SPOINT"});
@@ -75,7 +75,7 @@ private:
     }
   }
 
-  /// Ranges that meet become one, so that a search finds the one of a point.
+  /// Adds a range of points and joins it with overlapping ones, so that a search finds the range of a point.
   void add_range(long first, long last)
   {
     if (last < first)
@@ -202,7 +202,7 @@ void write_field(std::ostream &out, const std::string &text)
   out << text << std::string(16 - std::min<std::size_t>(text.size(), 16), ' ');
 }
 
-/// Ten digits, as many as 16 columns take.
+/// The value with ten digits, which fit in 16 columns.
 std::string value_text(double x)
 {
   char text[32];

@@ -16,9 +16,9 @@ namespace gestell::coupling
  *     DMIG, NAME, 0, IFO, TIN, TOUT, POLAR, , NCOL       IFO 1 square, 6 symmetric; TIN 1, 2 real
  *     DMIG, NAME, GJ, CJ, , G1, C1, A1, , G2, C2, A2 ... entries of column (GJ, CJ)
  *
- * A symmetric one has each pair once.  Rows are in the order of their nodes, then points without a place: component 0,
- * or any of a point on an SPOINT card.  Rows without entries are omitted. Rectangular matrices (IFO 2, 9: loads) are
- * ignored.
+ * A symmetric matrix contains each pair once.  Rows are in the order of their nodes, then points without a position:
+ * component 0, or any component of a point on an SPOINT card.  Rows without entries are omitted. Rectangular matrices
+ * (IFO 2, 9: loads) are ignored.
  *
  * Source: MSC Nastran Quick Reference Guide, DMIG.
  *

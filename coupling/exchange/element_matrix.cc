@@ -11,7 +11,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Between commas; blanks removed, an empty one at the end left out.
+/// The fields between commas, without blanks and without an empty last field.
 std::vector<std::string_view> fields_of(std::string_view line)
 {
   std::vector<std::string_view> fields;
@@ -26,7 +26,7 @@ std::vector<std::string_view> fields_of(std::string_view line)
   return fields;
 }
 
-/// "STIFFNESS" of "*MATRIX, TYPE=STIFFNESS".
+/// The value of a key, such as "STIFFNESS" in "*MATRIX, TYPE=STIFFNESS".
 std::string value_of(std::string_view line, const std::string &key)
 {
   for (const std::string_view field : fields_of(line))
@@ -59,7 +59,7 @@ private:
   bool is(std::string_view keyword) const { return begins(trimmed(file_.line()), keyword); }
   bool is_remark() const { return trimmed(file_.line()).substr(0, 2) == "**"; }
 
-  /// Nodes from the remark, directions from the lines behind it.
+  /// Reads nodes from the remark and directions from the following lines.
   bool read_element()
   {
     if (!rows_.empty())
@@ -87,7 +87,7 @@ private:
         break;
       const auto  fields = fields_of(line);
       std::size_t from   = 0;
-      if (fields.empty()) // commas alone
+      if (fields.empty()) // only commas
         continue;
       if (nodes.empty())
         file_.fail("directions precede their nodes; expected a comment '** ELEMENT NODES' with their "

@@ -19,7 +19,7 @@ namespace gestell::coupling
  *     *MATRIX, TYPE=STIFFNESS
  *     lower triangle, row by row
  *
- * CalculiX names a node for every direction.
+ * CalculiX lists a node for every direction.
  *
  * @throws std::invalid_argument with line.
  */

@@ -12,7 +12,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// (8I10), (1P,3D25.16): numbers in columns of a width.
+/// A format such as (8I10) or (1P,3D25.16): numbers in columns of fixed width.
 struct FortranFormat
 {
   std::size_t width;
@@ -41,7 +41,7 @@ bool is_type(std::string_view word)
          std::string("AE").find(capitals(word)[2]) != std::string::npos;
 }
 
-/// Numbers in columns, over as many lines as they take.
+/// Reads numbers in columns, over as many lines as necessary.
 class Columns
 {
 public:

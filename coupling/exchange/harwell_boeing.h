@@ -18,7 +18,7 @@ namespace gestell::coupling
  */
 LabelledMatrix read_harwell_boeing(const std::string &file);
 
-/// Whether the third line of a file is that of this format.
+/// Whether the third line of a file has this format.
 bool is_harwell_boeing(TextFile &file);
 
 } // namespace gestell::coupling

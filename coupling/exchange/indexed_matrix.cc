@@ -12,7 +12,7 @@ namespace
 
 constexpr const char *form = "'row column value'";
 
-/// A line of whole numbers, as large as all rows and columns, and behind it as many lines as its third says.
+/// Whether the first line is a head: no row or column is larger, and the value is the number of further lines.
 bool is_head(std::string_view value, const std::vector<FileEntry> &entries)
 {
   const auto &first    = entries.front();

@@ -16,7 +16,7 @@ std::string name_of_row(const std::vector<RowLabel> &rows, int i)
   return rows.empty() ? std::to_string(i + 1) : "(" + text_of(rows[std::size_t(i)]) + ")";
 }
 
-/// Refuses a second entry of the same row and column; of one triangle, of row and column exchanged, too.
+/// Refuses a second entry at the same row and column; in files of one triangle also at exchanged row and column.
 void refuse_repeated(const TextFile &file, std::vector<FileEntry> &entries, Triangles triangles,
                      const std::vector<RowLabel> &rows)
 {

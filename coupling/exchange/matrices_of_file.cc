@@ -45,8 +45,8 @@ Form form_of(const std::string &name)
 
 struct RoleNames
 {
-  std::string punched; ///< as Nastran names what it reduced
-  std::string type;    ///< as Abaqus does
+  std::string punched; ///< name in punch files of Nastran
+  std::string type;    ///< name in Abaqus
   char        first;
   std::string word;
 };

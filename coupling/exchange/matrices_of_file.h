@@ -13,8 +13,8 @@ namespace gestell::coupling
  * DMIG of Nastran, *MATRIX of CalculiX and Abaqus, Harwell-Boeing, lines `row column value`, else MatrixMarket or
  * PETSc's binary format.
  *
- * @param known_size  rows of a matrix read before, of which this one may have as many though it has few entries
- * @throws std::invalid_argument of their readers.
+ * @param known_size  number of rows of a matrix read before; this one may have as many rows although it has few entries
+ * @throws std::invalid_argument from their readers.
  */
 std::map<std::string, LabelledMatrix> matrices_of_file(const std::string &file, std::int64_t known_size = 0);
 

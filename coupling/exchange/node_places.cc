@@ -133,7 +133,7 @@ void CoordinateSystems::add(const TextFile &file, long number, const Card &card,
   systems_[number]   = system;
 }
 
-/// Places found so far; refuses a second one of a node.
+/// Positions found so far; detects a second position of a node.
 class Found
 {
 public:
@@ -141,7 +141,7 @@ public:
 
   bool wants(long node) const { return wanted_.count(node) > 0; }
 
-  /// @return whether the node stood elsewhere before
+  /// @return whether the node had another position before
   bool contradicts(long node, const std::array<double, 3> &x)
   {
     const auto [place, is_new] = nodes_.places.emplace(node, x);
@@ -232,7 +232,7 @@ class InpNodes
 public:
   explicit InpNodes(Found &found) : found_(found) {}
 
-  /// @param in_nodes  whether the file's first lines are nodes already
+  /// @param in_nodes  whether the first lines of the file are nodes
   void read(const std::string &name, bool in_nodes, int depth)
   {
     fem::InpLines lines(name);
@@ -290,7 +290,7 @@ private:
       throw refused(elsewhere(*node));
   }
 
-  /// Lines behind *SYSTEM and *INSTANCE move and turn nodes, unless they are zero.
+  /// Refuses lines after *SYSTEM and *INSTANCE that move or rotate nodes; zeros pass.
   template <typename Refused>
   static void require_not_moved(const std::string &keyword, const fem::InpLines &lines, const Refused &refused)
   {

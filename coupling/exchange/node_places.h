@@ -33,7 +33,7 @@ enum class UnknownPlaces
  * the same file.
  *
  * @param wanted  nodes that have rows; others may be in any system.
- * @return        those of `wanted` that are there.
+ * @return those of `wanted` that exist in the file.
  * @throws std::invalid_argument with line: a node with two positions, a node with position or DOFs in another system.
  */
 ModelNodes read_model_nodes(const std::string &file, const std::set<long> &wanted,

@@ -28,7 +28,7 @@ Vector3d vector(const std::array<double, 3> &x)
   return {x[0], x[1], x[2]};
 }
 
-/// Rows of places; those of others are zero.
+/// Rigid motions in the rows of nodes with positions; zero in other rows.
 MatrixXd moved_nodes(const std::vector<RowLabel> &rows, const NodePlaces &places, const Vector3d &centre)
 {
   MatrixXd R = MatrixXd::Zero(Eigen::Index(rows.size()), 6);
@@ -82,7 +82,7 @@ MatrixXd residuals(const Sparse &C, const MatrixXd &R)
   return (cancels.array() > 0.).select(force.cwiseAbs().cwiseQuotient(cancels), 0.);
 }
 
-/// Nodes that feel a support: a row of them answers to a translation.
+/// Nodes with a support: at least one of their rows has a force under a translation.
 std::set<long> supported_nodes(const MatrixXd &share, const std::vector<RowLabel> &rows)
 {
   std::set<long> nodes;
@@ -115,14 +115,14 @@ void compare_rows(const Sparse &C, const std::vector<RowLabel> &rows, RigidMotio
   }
 }
 
-/// Eigenvalues below next to nothing, by Sylvester's law of C - sigma M.
+/// Number of eigenvalues below a negligible value sigma, by Sylvester's law of C - sigma M.
 int count_free_motions(const Sparse &M, const Sparse &C)
 {
   const double  mass = M.diagonal().mean(), stiffness = C.diagonal().mean();
-  constexpr int most_rows = 20000; // that are factorised to count free motions: a second
+  constexpr int most_rows = 20000; // rows factorised to count free motions: takes a second
   if (C.rows() > most_rows || !(mass > 0.))
     return -1;
-  constexpr double                    no_motion = 1e-12; // of the mean of C over that of M: far below elastic motions
+  constexpr double                    no_motion = 1e-12; // of mean C over mean M: far below elastic motions
   const Sparse                        shifted   = C - no_motion * stiffness / mass * M;
   const Eigen::SimplicialLDLT<Sparse> factor(shifted);
   return factor.info() == Eigen::Success ? int((factor.vectorD().array() < 0.).count()) : -1;
@@ -178,7 +178,7 @@ RigidMotionCheck check_rigid_motions(const Sparse &M, const Sparse &C, const std
   for (int w = 0; w < 3; ++w) // about the centre: w x (x - c) = w x (x - middle) - w x arm
     check.R.col(3 + w) -= check.R.leftCols(3) * Vector3d::Unit(w).cross(arm);
   compare_rows(C, rows, check);
-  if (2 * check.n_quiet < check.n_rows) // else supports are few, and rotations tell
+  if (2 * check.n_quiet < check.n_rows) // otherwise supports are few, and rotations are sufficient
     check.n_free = count_free_motions(M, C);
   return check;
 }

@@ -33,7 +33,7 @@ std::string contents(const std::string &name)
   return text;
 }
 
-/// Makes an exponent one of C: D becomes e, and a sign inside stands for e and the sign.
+/// Writes an exponent as in C: D becomes e, and a sign within the number becomes e with the sign.
 std::size_t spelled_for_c(std::string_view field, char *number)
 {
   std::size_t n = 0;
@@ -136,7 +136,7 @@ long TextFile::node(std::string_view field) const
 std::optional<double> real_of(std::string_view field)
 {
   field                                = trimmed(field);
-  constexpr std::size_t longest_number = 60; // letters: twice those of a double in any notation
+  constexpr std::size_t longest_number = 60; // letters: twice the length of a double in any notation
   if (field.empty() || field.size() > longest_number)
     return std::nullopt;
   char              number[2 * longest_number];

@@ -33,7 +33,8 @@ public:
   [[noreturn]] void fail_at_end(const std::string &what) const;
   [[noreturn]] void fail_at(long line, const std::string &what) const; ///< of an earlier line
 
-  /// A finite number: of C, of Fortran (1.5D+03) or in Nastran's short form (1.5-3).  @param what  it is, for messages
+  /// A finite number in the notation of C, of Fortran (1.5D+03) or in Nastran's short form (1.5-3).  @param what  its
+  /// meaning, for messages
   double real(std::string_view field, const char *what) const;
   long   whole(std::string_view field, const char *what) const;
   long   node(std::string_view field) const; ///< the number of a node, from 1
@@ -47,13 +48,13 @@ private:
   long             number_ = 0;
 };
 
-/// A number of C, of Fortran or in Nastran's short form, infinite if it exceeds double precision; none: not a number.
+/// A number in the notation of C, of Fortran or in Nastran's short form, infinite beyond double; none: not a number.
 std::optional<double> real_of(std::string_view field);
-std::optional<long>   whole_of(std::string_view field); ///< likewise
+std::optional<long>   whole_of(std::string_view field); ///< none: not an integer
 
 std::string_view trimmed(std::string_view text);                            ///< without blanks at its ends
 std::string      capitals(std::string_view text);                           ///< letters of ASCII
-bool             begins(std::string_view text, std::string_view beginning); ///< whatever the case of letters
+bool             begins(std::string_view text, std::string_view beginning); ///< independent of case
 
 /// Words between blanks.
 std::vector<std::string_view> words_of(std::string_view line);

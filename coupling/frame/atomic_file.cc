@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 namespace
 {
 
-constexpr const char *unfinished = "unfinished-"; // first letters of the names beside
-/// an hour: what is older was left by a process that was killed
+constexpr const char *unfinished = "unfinished-"; // prefix of the temporary names
+/// one hour: older files are from a process that was killed
 constexpr auto writing = std::chrono::hours(1);
 
 std::string name_beside(const std::string &path)
@@ -26,7 +26,7 @@ std::string name_beside(const std::string &path)
       .string();
 }
 
-/// unfinished-PROCESS-NUMBER: a file of a user may begin alike.
+/// unfinished-PROCESS-NUMBER: the name of a user's file may have the same prefix.
 bool is_unfinished(const std::string &name)
 {
   const std::string first  = unfinished;

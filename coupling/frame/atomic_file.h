@@ -42,11 +42,11 @@ private:
 class AtomicFile
 {
 public:
-  explicit AtomicFile(const std::string &path); ///< in a folder that exists
+  explicit AtomicFile(const std::string &path); ///< in an existing folder
 
   std::ostream &stream() { return out_; }
 
-  /// @throws WriteFailure with path, reason and remedy; nothing has changed then
+  /// @throws WriteFailure with path, reason and remedy; the old file is unchanged then
   void finish();
 
 private:
@@ -58,7 +58,7 @@ private:
 /// unchanged for an hour.
 bool abandoned(const std::string &path);
 
-/// Removes abandoned files of a folder as far as possible.
+/// Removes abandoned files of a folder; failures are ignored.
 void remove_abandoned(const std::string &folder);
 
 } // namespace gestell::coupling

@@ -21,7 +21,7 @@ std::string variable(const char *name)
   return value ? value : "";
 }
 
-/// "" where there is none, as of users of a container or a service.
+/// Home folder of the user; empty if there is none, as in a container or a service.
 std::string home_of_user()
 {
   std::array<char, 4096> texts{};

@@ -11,7 +11,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr std::size_t head_size = 512; // where HDF5 looks for its own beginning, beside the first byte
+constexpr std::size_t head_size = 512; // HDF5 searches its header here, and at byte 0
 
 std::string head_of(const std::string &title, const std::string &hash)
 {
@@ -26,7 +26,7 @@ std::string family(const std::string &title)
   return title.substr(0, title.rfind(' ') + 1);
 }
 
-/// "" if there is no file; shorter than a head if the file is.
+/// The header of the file; empty if there is no file, shorter than a header if the file is.
 std::string read_head(std::ifstream &in)
 {
   std::string head(head_size, '\0');
@@ -71,7 +71,7 @@ std::string seal_defect(const std::string &file, const std::string &title)
   const std::string head = read_head(in);
   if (const std::string defect = defect_of(head, title); !defect.empty())
     return defect;
-  // Through the same handle: the name may belong to another file by now.
+  // Reads through the same handle, because the name may by now belong to another file.
   if (head != head_of(title, sha256_of(in)))
     return "is damaged: its content does not match its checksum";
   return {};

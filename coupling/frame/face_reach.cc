@@ -25,7 +25,7 @@ Vector3d nearest_in(const FaceBox &box, const Vector3d &x)
   return nearest;
 }
 
-/// Directions of its sides, at right angles; a side without length has the direction that the others leave.
+/// Directions of the sides, orthogonal; a side of length zero has the remaining direction.
 Matrix3d axes_of(const FaceBox &box)
 {
   Matrix3d axes = Matrix3d::Zero();
@@ -61,7 +61,7 @@ FaceBox box_between(const Vector3d &low, const Vector3d &high)
 
 FaceReach reach_of(const FaceBox &box, const Vector3d &point, const Matrix3d &free)
 {
-  // Alternates between the box and the points that are free, two convex sets: it closes in on where they are nearest.
+  // Alternating projections on two convex sets, the box and the free points: they converge to the nearest points.
   constexpr int projections = 100;
   if (box.half.isZero(0.))
     return {};

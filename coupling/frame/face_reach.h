@@ -15,31 +15,31 @@ struct FaceBox
 };
 
 FaceBox box_of(const fem::PlaneFace &face);
-/// Along the axes of space.
+/// A box with sides along the global axes.
 FaceBox box_between(const Eigen::Vector3d &low, const Eigen::Vector3d &high);
 
 /**
- * Shares of the size s of faces, outside of which a point is far.  Faces that carry at their two ends take a force F at
- * the distance e outside of them as F (1 + e/s) at the near end and -F e/s at the far one.  Brackets on plane faces and
- * shafts in two bores in line have such a pull: from e = s/2 on it counts as much as half of F.  Beside a bore, in
- * which a pin belongs, a quarter of F does.
+ * Limits of outside/size, beyond which a point is far from its faces.  Faces that carry a load at their two ends react
+ * to a force F at the distance e outside of them with F (1 + e/s) at the near end and -F e/s at the far end.  Brackets
+ * on plane faces and shafts in two aligned bores have such a tensile reaction: at e = s/2 it reaches half of F.  Next
+ * to a bore, which should contain a pin, the limit is a quarter of F.
  */
 constexpr double far_from_faces = 0.5, far_from_bore = 0.25;
 
 /**
- * A point beside the faces of an interface, seen along that side of the box from which it looks farthest off: a force
- * across this view has the lever `outside`, and the faces resist its moment over `size`.
+ * A point near the faces of an interface, in the view along the side of the box in which it appears farthest away: a
+ * force normal to this view has the lever `outside`, and the faces resist its moment over the length `size`.
  */
 struct FaceReach
 {
-  double outside = 0.; ///< [m] from the rectangle around them in that view; 0: within, or they are not known
-  double size    = 0.; ///< [m] longer side of this rectangle
+  double outside = 0.;             ///< [m] from the rectangle around them in that view; 0: within it, or unknown
+  double size    = 0.;             ///< [m] longer side of this rectangle
   double limit   = far_from_faces; ///< of outside/size
 
   bool far() const { return outside > limit * size; }
 };
 
-/// @param free  projector onto directions in which the point may be moved, as along the axis of a guide.
+/// @param free  projector onto directions in which the point can be shifted without effect, as along a guide.
 FaceReach reach_of(const FaceBox &box, const Eigen::Vector3d &point,
                    const Eigen::Matrix3d &free = Eigen::Matrix3d::Zero());
 

@@ -33,7 +33,7 @@ void require_named_after(const FrameOrigin &origin, const std::string &key)
     throw std::runtime_error("was made from other inputs than its name states");
 }
 
-/// A frame that another user put there may be anything.
+/// Refuses a frame of another user, which may contain anything.
 void require_own(const std::string &file)
 {
   for (const std::string &path : {fs::path(file).parent_path().string(), file})
@@ -75,7 +75,7 @@ namespace
 
 constexpr fs::perms written_by_others = fs::perms::group_write | fs::perms::others_write;
 
-/// A folder that is there stays as it is, if others cannot change what is put there.
+/// Creates the folder. An existing folder is used unchanged, unless other users can change its files.
 void make_own_folder(const fs::path &folder)
 {
   std::error_code error;
@@ -106,7 +106,7 @@ std::optional<StoredFrame> find_in_cache(const std::string &key, std::string &no
   try
   {
     StoredFrame stored = read_entry(file, key);
-    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // a cache for reading only is one, too
+    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // fails in a read-only cache, which is valid
     return stored;
   }
   catch (const std::runtime_error &failure)
@@ -150,7 +150,7 @@ public:
     each_time_ += seconds;
     once_ += keys_.insert(key).second ? seconds : 0.;
   }
-  /// @param each_time  a frame found twice counts twice, not once
+  /// @param each_time  a frame that is read twice counts twice, not once
   double seconds(bool each_time)
   {
     const std::lock_guard<std::mutex> while_changed(mutex_);

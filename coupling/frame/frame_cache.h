@@ -21,22 +21,22 @@ std::optional<StoredFrame> find_in_cache(const std::string &key, std::string &no
 /// that cannot be written does not cause a failure: the reason is returned, else "".
 std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin);
 
-/// A frame, and whether it was found or reduced.
+/// A frame, and whether it was read from the cache or reduced.
 struct CachedFrame
 {
   ReducedFrame frame;
-  bool         from_cache = false; ///< found, not made now
-  double       cpu        = 0.;    ///< [s] CPU time of its reduction, now or as its process stored it; 0: not known
+  bool         from_cache = false; ///< read from the cache, not computed now
+  double       cpu        = 0.;    ///< [s] CPU time of its reduction, now or as stored; 0: unknown
 };
 
 /// The frame of a recipe from the cache, otherwise from `make`, which is then stored.
 /// @return a stored frame without notes; a new one with notes in cache_notes: why a stored one was not used or the new
 /// one not stored
-/// @throws what `make` throws; nothing is kept then
+/// @throws the exceptions of `make`; nothing is stored then
 CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<ReducedFrame()> &make);
 
-/// [s] CPU time of this process as if the cache had been empty: fem::cpu_time() and, once per frame found, the CPU time
-/// of its reduction.
+/// CPU time [s] that this process would have needed with an empty cache: fem::cpu_time() plus, once for each frame read
+/// from the cache, the stored CPU time of its reduction.
 double cpu_time_without_cache();
 
 /// Path of the frame of this key in cache_folder(); "": none.
@@ -56,17 +56,17 @@ struct CacheEntry
 /// How much of each file is read.
 enum class CacheCheck
 {
-  heads,   ///< head, origin and sizes: damage of the numbers is not seen
+  heads,   ///< head, origin and sizes: damage of the numbers is not detected
   contents ///< all of it, with its checksum, as for use
 };
 
 /// All files of the cache, the most recently used first: frames and unfinished files. Other files are not listed.
 std::vector<CacheEntry> cache_entries(CacheCheck check = CacheCheck::heads);
 
-/// Why this frame of the cache cannot be used, its file read whole; "": it can.
+/// Why this frame of the cache cannot be used, after reading its whole file; "": it can.
 std::string content_defect(const CacheEntry &entry);
 
-/// The usable entry whose recipe differs from this one in the fewest ingredients; nothing if the cache is empty.
+/// The usable entry whose recipe differs from this one in the fewest ingredients; none if the cache is empty.
 std::optional<CacheEntry> nearest_entry(const std::vector<CacheEntry> &entries, const Recipe &recipe);
 
 /// Removes an entry.  @return "" or the reason why it is still there.

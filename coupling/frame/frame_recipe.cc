@@ -27,8 +27,8 @@ std::string text_of(double value)
   return {digits, std::to_chars(digits, digits + sizeof digits, value == 0. ? 0. : value).ptr}; // no minus zero
 }
 
-/// Collects ingredients.  Every value below is taken apart by a structured binding that names all its members: a member
-/// that is added later does not compile until it is added here, or named and left out on purpose.
+/// Collects ingredients.  A structured binding below names all members of every value: a new member does not compile
+/// until it is added here or deliberately left out.
 class Collector
 {
 public:
@@ -79,7 +79,7 @@ public:
     add(name + ".E", E);
     add(name + ".nu", nu);
     add(name + ".rho", rho);
-    add(name + ".name", called); // the frame tells it
+    add(name + ".name", called); // the frame contains it
   }
   void add(const std::string &name, const fem::SurfaceSelector::Cylinder &value)
   {
@@ -270,7 +270,7 @@ public:
       add("reduction.modes", n_modes);
     else
       add("reduction.tolerance", tolerance);
-    add("reduction.frequency", frequency); // of what the frame says of its limits, too
+    add("reduction.frequency", frequency); // also the limits stated by the frame
     add("reduction.eigensolver", eigensolver);
     add("reduction.inertia relief", inertia_relief);
   }
@@ -318,7 +318,7 @@ std::size_t parse_length(const std::string &text, std::size_t &at)
   return length;
 }
 
-/// Reads `length` letters and the one that ends them.
+/// Reads `length` letters and the following separator.
 std::string parse_word(const std::string &text, std::size_t &at, std::size_t length, char end)
 {
   if (length >= text.size() - at || text[at + length] != end)
@@ -346,7 +346,7 @@ Recipe recipe_of(const fem::FrameMatrices &frame, const ReductionOptions &option
   return collector.finished();
 }
 
-// Lengths stand before the words, so that no word can pass for two.
+// Lengths precede the words, so that the text is unambiguous.
 std::string text_of(const Recipe &recipe)
 {
   std::string text;
@@ -375,7 +375,7 @@ std::string content_key(const Recipe &recipe)
 std::string beyond_the_files(const Recipe &recipe)
 {
   const auto found = std::find_if(recipe.begin(), recipe.end(),
-                                  [](const Ingredient &own) // of a part its name stands before
+                                  [](const Ingredient &own) // of a part, with its name as prefix
                                   {
                                     return own.name.size() >= beyond_files.size() &&
                                            own.name.compare(own.name.size() - beyond_files.size(), std::string::npos,

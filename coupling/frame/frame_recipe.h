@@ -32,7 +32,7 @@ Recipe recipe_of(const fem::FrameSpecification &frame, const ReductionOptions &o
 /// The same for a frame that is given by matrices.
 Recipe recipe_of(const fem::FrameMatrices &frame, const ReductionOptions &options);
 
-/// A text for parse_recipe(), for any names and values.
+/// Text form of a recipe for parse_recipe(), for any names and values.
 std::string text_of(const Recipe &recipe);
 /// @throws std::runtime_error if the text is not one of text_of().
 Recipe parse_recipe(const std::string &text);

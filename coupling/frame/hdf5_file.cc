@@ -31,7 +31,7 @@ private:
   herr_t (*close_)(hid_t);
 };
 
-/// While it lives HDF5 prints nothing by itself.
+/// During its lifetime HDF5 prints no messages.
 class QuietErrors
 {
 public:
@@ -128,7 +128,7 @@ Matrix Hdf5File::read_array(const std::string &name, std::int64_t type, int type
   if (H5Sget_simple_extent_ndims(space) != 2 || H5Sget_simple_extent_dims(space, size, nullptr) != 2 ||
       H5Tget_class(stored) != type_class)
     fail(file_, "array '" + name + "' is not a matrix of the type expected");
-  // Arrays of ours are neither packed nor of smaller numbers than those read: the file holds every byte of them.
+  // These arrays are neither compressed nor of a smaller number type: the file must contain every byte of them.
   if (!stand_in(bytes_, size[0], size[1], sizeof(typename Matrix::Scalar)))
     fail(file_, "array '" + name + "' claims a size that a file of " + std::to_string(bytes_) + " bytes cannot hold");
   Matrix A(size[1], size[0]);

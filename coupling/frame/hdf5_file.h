@@ -10,8 +10,8 @@ namespace gestell::coupling
 {
 
 /**
- * A small HDF5 file of named arrays and texts: a new one, in memory until its image() is written somewhere, or one to
- * be read; names may be paths ("outputs/0/on_q").
+ * A small HDF5 file of named arrays and strings: a new one, in memory until its image() is written, or an existing one
+ * for reading; names may be paths ("outputs/0/on_q").
  *
  * HDF5 never writes to a disk, since it crashes on a full one. It does not lock files, which some network drives do not
  * support; writers use their own file names. Sizes of arrays are checked against the file size before allocation.
@@ -51,7 +51,7 @@ private:
 
   std::string   file_;
   std::int64_t  handle_ = -1;
-  std::uint64_t bytes_  = 0; ///< of a file to be read
+  std::uint64_t bytes_  = 0; ///< size of a file opened for reading
 };
 
 } // namespace gestell::coupling

@@ -34,7 +34,7 @@ std::string lower_case(std::string text)
   return text;
 }
 
-/// The file, line by line, with messages that say where.
+/// The file, line by line, with messages that contain the location.
 class MatrixMarketReader
 {
 public:
@@ -47,7 +47,7 @@ public:
     file_.seekg(0);
   }
 
-  /// Refuses more numbers than a file of this length holds, each with a blank or an end of its line.
+  /// Rejects more numbers than a file of this length can contain, each with a blank or a line end.
   void require_room(double numbers, const std::string &what) const
   {
     if (2. * numbers > double(size_) + 1.)
@@ -216,9 +216,9 @@ void read_array(MatrixMarketReader &reader, int rows, int columns, bool symmetri
     }
 }
 
-/// The file once more, up to the entry whose row and column an earlier line has already: the format gives each entry
-/// by its own row and column, and is silent on what a second one would mean (Boisvert, Pozo and Remington, The Matrix
-/// Market Exchange Formats: Initial Design, NISTIR 5935, 1996).
+/// Reads the file again up to the first repeated entry and refuses it. The format gives each entry by row and column
+/// and does not define the meaning of a second one (Boisvert, Pozo and Remington, The Matrix Market Exchange Formats:
+/// Initial Design, NISTIR 5935, 1996).
 [[noreturn]] void refuse_repeated(const std::string &file)
 {
   MatrixMarketReader reader(file);
@@ -281,7 +281,7 @@ Matrix read_matrix_market(const std::string &file, std::int64_t known_size)
 namespace
 {
 
-/// A file with its head line and remark; ends with what it could not write.
+/// A file with head line and remark; finish() reports write errors.
 class Output
 {
 public:

@@ -13,7 +13,7 @@ namespace gestell::coupling
  * symmetric file contains one triangle; both are returned. A duplicate entry is an error. Fortran exponents (D) are
  * allowed.
  *
- * @param known_size  rows of a matrix read before, of which this one may have as many though it has few entries
+ * @param known_size  number of rows of a matrix read before; this one may have as many rows although it has few entries
  * @throws std::invalid_argument with file and line, the offending text and what was expected.
  */
 Eigen::SparseMatrix<double> read_matrix_market(const std::string &file, std::int64_t known_size = 0);

@@ -21,8 +21,8 @@ double quotient(const MeshValue &a, const MeshValue &b, const MeshValue &c, doub
   return (n1 - n2) / (n2 - n3);
 }
 
-/// The order that three meshes, of which the last is number `last`, show; NaN if none, infinite if the values settle
-/// faster than any order would.
+/// The order from the three meshes that end with number `last`; NaN if there is none, infinite if the values converge
+/// faster than any order.
 double observed_order(const std::vector<MeshValue> &meshes, std::size_t last)
 {
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -53,7 +53,7 @@ double correction_of(const std::vector<MeshValue> &meshes, std::size_t last, dou
   return (before.value - meshes[last].value) * r / (1. - r);
 }
 
-/// The meshes that are distinctly finer than the one before, the last one among them.
+/// The meshes that are distinctly finer than the previous one, including the last one.
 std::vector<MeshValue> distinct_ones(const std::vector<MeshValue> &meshes)
 {
   std::vector<MeshValue> kept = {meshes.back()};
@@ -63,7 +63,7 @@ std::vector<MeshValue> distinct_ones(const std::vector<MeshValue> &meshes)
   return {kept.rbegin(), kept.rend()};
 }
 
-/// How far the last two steps at most led away from the side of the limit.
+/// Largest change of the last two steps away from the limit.
 double largest_step_back(const std::vector<MeshValue> &meshes, double side)
 {
   double largest = 0.;
@@ -72,7 +72,7 @@ double largest_step_back(const std::vector<MeshValue> &meshes, double side)
   return largest > rounding * std::abs(meshes.back().value) ? largest : 0.;
 }
 
-/// How much nearer to the limit than the last one another mesh came.
+/// Distance by which another mesh was nearer to the limit than the last one.
 double overtaken(const std::vector<MeshValue> &meshes, double side)
 {
   double most = 0.;
@@ -81,7 +81,7 @@ double overtaken(const std::vector<MeshValue> &meshes, double side)
   return most;
 }
 
-/// |v_last - v| by the estimate of the last mesh alone.
+/// |v_last - v| from the estimate of the last mesh only.
 double estimated_rest(const MeshValue &last)
 {
   const double estimate = std::min(last.estimate, 1.); // it may be infinite
@@ -95,12 +95,12 @@ struct Rest
   double order      = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Of at least two meshes whose values move to one side.
+/// Remaining error of at least two meshes whose values change in one direction.
 Rest regular_rest(const std::vector<MeshValue> &meshes)
 {
   const MeshValue &last = meshes.back(), &before = meshes[meshes.size() - 2];
   const double     step = before.value - last.value;
-  // of the estimate from mesh to mesh: beyond, two meshes show no order
+  // ratio of estimates from mesh to mesh: outside, two meshes show no order
   constexpr double least_fall = 0.05, greatest_fall = 0.9;
   const double     fall        = std::clamp(last.estimate / before.estimate, least_fall, greatest_fall);
   const double     r           = std::isfinite(fall) ? fall : greatest_fall;
@@ -130,7 +130,7 @@ Rest regular_rest(const std::vector<MeshValue> &meshes)
     rest.doubt                     = std::max(disagreement, share_of_step * std::abs(rest.correction));
   }
   constexpr double least_share = 0.5; // of the estimate that is true at least, where nothing better is known
-  if (meshes.size() < 4)              // fewer may lie near each other by chance
+  if (meshes.size() < 4)              // fewer may agree by chance
     rest.doubt = std::max(rest.doubt, least_share * estimated_rest(last) - std::abs(rest.correction));
   return rest;
 }

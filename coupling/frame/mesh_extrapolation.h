@@ -5,12 +5,12 @@
 namespace gestell::coupling
 {
 
-/// A quantity of one mesh.
+/// A quantity on one mesh.
 struct MeshValue
 {
-  double coordinates = 0.; ///< n, number of them
+  double coordinates = 0.; ///< n, number of DOFs
   double value       = 0.;
-  double estimate    = 0.; ///< relative error by an estimator, >= 0; only its fall from mesh to mesh counts
+  double estimate    = 0.; ///< relative error by an estimator, >= 0; only the ratio between meshes matters
 };
 
 /// Side from which values converge: conforming elements make frequencies too high, compliances too low.
@@ -27,32 +27,34 @@ struct Extrapolated
 {
   double limit       = 0.;   ///< value for n -> infinity
   double uncertainty = 0.;   ///< of the limit, relative
-  double order       = 0.;   ///< k of  error ~ n^(-k); NaN with fewer than three meshes or where the values tell none
-  bool   regular     = true; ///< values that moved towards the limit from mesh to mesh, and not away from it
-  int    n_meshes    = 0;    ///< distinctly finer than the one before, on which the limit rests
+  double order       = 0.;   ///< k of  error ~ n^(-k); NaN with fewer than three meshes, or if the values show no order
+  bool   regular     = true; ///< the values approach the limit from mesh to mesh and never retreat
+  int    n_meshes    = 0;    ///< number of meshes used, each distinctly finer than the one before
 };
 
 /**
- * Limit of values v_1, v_2, ... of ever finer meshes (Richardson).
+ * Limit of the values v_1, v_2, ... of increasingly fine meshes (Richardson extrapolation).
  *
- * With the error of each mesh r times that of the one before it,
+ * If the error of each mesh is r times that of the previous one,
  *
  *     v = v_m - (v_(m-1) - v_m) r / (1 - r).
  *
- * r is known in two ways: from the estimator, r = estimate_m / estimate_(m-1), which needs two meshes and holds if it
- * is wrong by the same factor on both; and from three meshes, by the k that fits error = c n^(-k) to their values,
- * r = (n_(m-1) / n_m)^k.  Three meshes give the limit by the second way, uncertain by the difference to the first, or
- * from four meshes on to the limit of the three before where that is nearer, and by at least half of the correction;
- * two meshes the first way, uncertain by the whole step; one mesh its own estimate, uncertain by all of it.  Values
- * that settle faster than any k up to 4 were far from their order on the first of three meshes: the rest is taken with
- * k = 1, all of it doubted.
+ * r is computed in two ways.  From the estimator: r = estimate_m / estimate_(m-1), which needs two meshes and is valid
+ * if the estimator is wrong by the same factor on both.  From the values of three meshes: r = (n_(m-1) / n_m)^k with
+ * the k that fits error = c n^(-k) to them.  With three or more meshes the limit follows from the values; its
+ * uncertainty is the difference to the limit from the estimator (with four or more meshes also that to the limit of the
+ * previous three, if smaller), but at least half of the correction.  With two meshes the limit follows from the
+ * estimator, and the uncertainty is the whole correction.  With one mesh the limit is its value, and the uncertainty is
+ * its estimate.  If values converge faster than any k up to 4, the first of the three meshes was too coarse: k = 1 is
+ * used, and the uncertainty is the whole correction.
  *
- * Up to three meshes the error is not stated to be below half of the estimate of the last one.
+ * With up to three meshes the resulting error is at least half of the estimate of the last mesh.
  *
- * Meshes not distinctly finer than a coarser one are left out.  Values of which one
- * of the last two steps leads away from the side of the limit, or the limit not past the nearest of them, are not
- * regular: then the rest is the estimate of the last mesh, or up to the nearest value where that is more, and uncertain
- * by as much and by the step away.  So the limit is never above the lowest value of those that come from above.
+ * Meshes that are not distinctly finer than a coarser one are skipped.  Values are not regular if one of the last two
+ * steps leads away from the limit, or if the limit does not exceed all values in the direction of convergence.  The
+ * correction is then the estimate of the last mesh, or the distance to the value nearest to the limit if that is
+ * larger; the uncertainty is the larger of this correction and the step away.  Therefore the limit of values that
+ * converge from above is never above the lowest of them.
  *
  * @param meshes  at least one, of growing n; values above zero.
  * @throws std::invalid_argument if there is none.

@@ -11,8 +11,8 @@ namespace gestell::coupling
 namespace
 {
 
-/// Of a number that no double holds: 1e-400 and 0.00...01 are 0, 1e400 and 100...0 infinite.  Its power of ten decides,
-/// the place of its first digit that is not zero with the exponent.
+/// Value of a number outside the range of double: 1e-400 and 0.00...01 are 0, 1e400 and 100...0 infinite.  Its power of
+/// ten decides: the position of its first nonzero digit plus the exponent.
 double beyond_range(std::string_view number)
 {
   const double      sign     = number[0] == '-' ? -1. : 1.;

@@ -21,7 +21,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 // petscmat.h, petscvec.h: what kind of object follows.
 constexpr std::int64_t matrix_class = 1211216, vector_class = 1211214, first_class = 1211211, last_class = 1211250;
-constexpr std::int64_t dense = -1; // in place of the number of entries
+constexpr std::int64_t dense = -1; // instead of the number of entries
 
 template <typename Unsigned>
 Unsigned from_big_endian(const unsigned char *bytes)
@@ -32,7 +32,7 @@ Unsigned from_big_endian(const unsigned char *bytes)
   return value;
 }
 
-/// The file from its beginning on, with messages that say where.
+/// The file from its beginning, with messages that contain the position.
 class PetscReader
 {
 public:
@@ -54,7 +54,7 @@ public:
 
   std::int64_t integer() { return wide_ ? std::int64_t(take<std::uint64_t>()) : std::int32_t(take<std::uint32_t>()); }
 
-  /// Of row i and column j, counted from 0.
+  /// Entry of row i and column j, counted from 0.
   double real(int i, int j)
   {
     const auto bits = take<std::uint64_t>();

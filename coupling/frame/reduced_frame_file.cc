@@ -229,7 +229,7 @@ void each_part(Frame &frame, Archive &&archive)
   archive("M", M);
   archive("B", B);
   archive("C", C);
-  archive("n_interface", n_interface); // files hold modal frames only
+  archive("n_interface", n_interface); // files contain only modal frames
   archive("omega0", omega0);
   archive("interfaces", interfaces);
   archive("translations_load", translations_load);
@@ -251,7 +251,7 @@ void each_part(Frame &frame, Archive &&archive)
   archive("statements", statements);
 }
 
-/// The parts must fit each other, whatever the file says.
+/// The parts must be consistent, whatever the file contains.
 void require_consistent(const ReducedFrame &frame)
 {
   const auto n       = frame.M.rows();
@@ -425,7 +425,7 @@ ReducedFrame read_reduced_frame(const std::string &file)
     {
       return read_content(file).frame;
     }
-    catch (const std::runtime_error &failure) // where there was no child
+    catch (const std::runtime_error &failure) // if there was no child process
     {
       defect = failure.what();
     }

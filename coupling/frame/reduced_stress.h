@@ -24,10 +24,10 @@ struct ReducedStress
 {
   std::vector<int>                point;     ///< [points] of the frame's picture
   std::vector<std::array<int, 3>> triangles; ///< into stress points
-  std::vector<std::string>        rigid;     ///< supports and interfaces that hold surfaces rigid
+  std::vector<std::string>        rigid;     ///< supports and interfaces that make surfaces rigid
   std::vector<int>                nearby;    ///< [points] of `rigid`, or -1
   Eigen::MatrixXf                 mean;      // [6 points x (n1 + m + 3)] Pa
-  Eigen::MatrixXf                 deviation; // the same: of one cell from the mean of the cells at its point
+  Eigen::MatrixXf                 deviation; // same size: of a single element from the mean at its point
 
   bool empty() const { return point.empty(); }
   int  n_points() const { return static_cast<int>(point.size()); }

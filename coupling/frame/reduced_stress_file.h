@@ -6,12 +6,12 @@
 namespace gestell::coupling
 {
 
-/// Writes the group "stress/" of the file of a reduced frame; nothing if there is none.
+/// Writes the group "stress/" of the file of a reduced frame; no effect without stresses.
 void write_stress(Hdf5File &file, const ReducedStress &stress);
 
 /// Reads it; empty if the file has none.
-/// @param n_points  of the picture, n  coordinates of the reduced frame.
-/// @throws std::runtime_error if it does not fit these.
+/// @param n_points  number of points of the picture; n  number of coordinates of the reduced frame.
+/// @throws std::runtime_error if its sizes contradict these.
 ReducedStress read_stress(const Hdf5File &file, int n_points, int n);
 
 } // namespace gestell::coupling

@@ -25,7 +25,7 @@ std::string text_of(const std::filesystem::path &path)
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// In which a file names others.
+/// Language of the references to other files.
 enum class Language
 {
   none,
@@ -47,13 +47,13 @@ bool is_data(const std::filesystem::path &path)
   return (!is_mixed && data.count(fem::in_capitals(extension)) > 0) || fem::begins_as_mesh(path.string());
 }
 
-/// Of a file that a script merges.
+/// Language of a file that a script merges.
 Language merged_language(const std::filesystem::path &path)
 {
   return is_data(path) ? Language::none : Language::gmsh;
 }
 
-/// Of the file of the frame itself, whose kind is known by its extension.
+/// Language of the file of the frame, whose kind is known by its extension.
 Language language_of(const std::filesystem::path &path)
 {
   return fem::in_capitals(path.extension().string()) == ".INP" ? Language::abaqus : merged_language(path);
@@ -66,7 +66,7 @@ struct NamedFile
   Language              language;
 };
 
-/// Of gmsh's language: what makes a frame of more than the files that a script names.
+/// Whether a token of gmsh's language makes a frame depend on more than the files named in the script.
 bool asks_beyond_files(const fem::GeoToken &token)
 {
   static const std::set<std::string> words = {"Alias",
@@ -112,7 +112,7 @@ bool reads_a_file(const fem::GeoToken &token)
   return token.kind == fem::GeoToken::Kind::word && words.count(token.text) > 0;
 }
 
-/// The text that names the file, behind the word at i; null where it is computed.
+/// The file name after the word at i; null if it is computed.
 const fem::GeoToken *plain_name(const std::vector<fem::GeoToken> &tokens, std::size_t i)
 {
   const bool        bracket = i + 1 < tokens.size() && tokens[i + 1].is("(");
@@ -175,7 +175,7 @@ std::vector<NamedFile> named_in_inp(const std::filesystem::path &path)
   return named;
 }
 
-/// A file to be looked at, unless that was done.
+/// A file to be examined, unless it has been already.
 struct Waiting
 {
   std::filesystem::path path;

@@ -6,18 +6,18 @@
 namespace gestell::coupling
 {
 
-/// The files a frame is made from, in the order they are named, each once.
+/// The files that a frame is made from, in the order in which they are named, each once.
 struct SourceFiles
 {
-  std::vector<std::string> found, missing; ///< missing: as the script writes them
-  /// Why more than these files may decide what the frame is: "frame.geo:3: names a file by a computed text"; empty: no
-  /// more does.
+  std::vector<std::string> found, missing; ///< missing: as named in the script
+  /// Why more than these files may determine the frame: "frame.geo:3: names a file by a computed text"; empty: they
+  /// determine it.
   std::string beyond;
 };
 
-/// `cad` itself and all that it names, and that these name, relative to their own folders: of a script of gmsh (.geo,
-/// and whatever gmsh does not know as data and so runs as one) as text in Include, Merge, MergeWithBoundingBox and
-/// ShapeFromFile, of a mesh of Abaqus (.inp) in *INCLUDE and INPUT=.
+/// `cad` itself and all files that it names, recursively, relative to their own folders.  Names are found in a gmsh
+/// script (.geo, and any file that gmsh runs as a script because its type is unknown) as strings in Include, Merge,
+/// MergeWithBoundingBox and ShapeFromFile, and in an Abaqus mesh (.inp) in *INCLUDE and INPUT=.
 SourceFiles source_files(const std::string &cad);
 
 } // namespace gestell::coupling

@@ -24,7 +24,7 @@ struct PrincipalStresses
 };
 PrincipalStresses principal_stresses(const Stress &sigma);
 
-/// (p; g) of a machine's coordinates q, the first of which are those of the frame.
+/// (p; g) for a machine's coordinates q, the first of which are those of the frame.
 Eigen::VectorXd stress_state(const ReducedStress &stress, const Eigen::VectorXd &q, const std::array<double, 3> &g);
 
 /// The stress at every point at one instant.
@@ -40,9 +40,9 @@ struct StressField
 StressField stress_field(const ReducedStress &stress, const Eigen::VectorXd &state);
 
 /**
- * Disagreement of neighbouring cells on the stress at a point: the root mean square of sigma_v of the deviation of
- * single cells from the mean, over the point and those that share a triangle with it, divided by sigma_v at the point.
- * It falls with the square of the size of the cells where the stress is smooth, and does not where it has no limit.
+ * Disagreement of adjacent elements on the stress at a point: the root mean square of sigma_v of the deviation of
+ * single elements from the mean, over the point and those that share a triangle with it, divided by sigma_v at the
+ * point.  It falls with the square of the element size where the stress is smooth, and does not fall at a singularity.
  */
 double disagreement(const ReducedStress &stress, const Eigen::VectorXd &state, int point);
 

@@ -45,8 +45,8 @@ VectorXd largest_of(const MatrixXd &states)
   return states.cwiseAbs().rowwise().maxCoeff().unaryExpr([](double z) { return z > 0. ? z : 1.; });
 }
 
-/// Principal components of the states in the norm of `gram`, and behind them the directions that rounding hides there,
-/// so that together they are a basis of all.
+/// Principal components of the states in the norm of `gram`, followed by the directions that are rounding there, so
+/// that together they are a basis of all states.
 Components principal_components(const MatrixXd &gram, const MatrixXd &states)
 {
   const SymmetricEigenSolver norm(gram);

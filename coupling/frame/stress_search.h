@@ -11,7 +11,7 @@ namespace gestell::coupling
 
 struct StressPeak
 {
-  int    point     = -1; ///< -1: no point counts
+  int    point     = -1; ///< -1: no point is included
   int    state     = -1; ///< column
   double von_mises = 0.; ///< [Pa]
 };

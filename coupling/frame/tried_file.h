@@ -9,17 +9,17 @@
 namespace gestell::coupling
 {
 
-/// Locked while HDF5 works: it has one internal lock, which a child must not inherit from another thread.
+/// A lock for the use of HDF5, which has one internal lock that a child must not inherit from another thread.
 std::unique_lock<std::mutex> hdf5_alone();
 
 /**
  * Reads a file in a forked child first, once per process for an unchanged file, so that a crash of HDF5, which trusts
  * the addresses in a file, becomes a message. (A checksum detects damage, not forgery.) hdf5_alone() is locked.
  *
- * @param phase   what of it is read, for the message: "reading the frame"
- * @param defect  reads the file; why it cannot be read, "" if it can
- * @return        what `defect` returned; "" where no child is made, by GESTELL_ONE_PROCESS
- * @throws std::invalid_argument if the child dies or does not end, with the remedy; std::runtime_error if none can be
+ * @param phase   activity for the message: "reading the frame"
+ * @param defect  reads the file and returns why it cannot be read, or ""
+ * @return the result of `defect`; "" if GESTELL_ONE_PROCESS forbids a child
+ * @throws std::invalid_argument if the child dies or does not end, with the remedy; std::runtime_error if it cannot be
  * created
  */
 std::string defect_in_child(const std::string &file, const std::string &phase, const fem::ReadingLimits &limits,

@@ -16,24 +16,24 @@
 namespace gestell::coupling
 {
 
-/// What a method takes besides step and tolerance.
+/// Parameter of a method besides step and tolerance.
 struct MethodParameter
 {
   std::string                 name;     ///< "rho_inf"
   std::string                 meaning;  ///< one clause
-  double                      fallback; ///< where none is given
+  double                      fallback; ///< default
   std::string                 range;    ///< "between 0 and 1": it must be ...
   std::function<bool(double)> valid;
-  std::vector<std::string>    choices{}; ///< of text; the first is the default, and fallback, range, valid stay empty
+  std::vector<std::string>    choices{}; ///< of strings; the first is the default, and fallback, range, valid are empty
 };
 
-/// A setting of a method that work-precision charts show.
+/// A setting of a method for work-precision charts.
 struct ChartSetting
 {
   std::string   key; ///< "bdf-2-controlled"
   MethodOptions options;
   bool          controlled = false; ///< the tolerance is varied, not the step
-  bool          on_request = false; ///< shown only when it is asked for
+  bool          on_request = false; ///< shown only on request
 };
 
 /**
@@ -56,11 +56,11 @@ struct BilinearWeights
 };
 
 /**
- * A method of time integration, as integration_methods() lists it: what it takes, what it makes, how it steps the test
- * oscillator.  Help, scenes, charts, stability maps and the guard against unstable steps ask it, and no one knows which
- * methods there are.
+ * A method of time integration, as listed by integration_methods(): its parameters, its integrator, and its step for
+ * the test oscillator.  Help, scenes, charts, stability maps and the stability check use only this interface, not the
+ * individual methods.
  *
- * The options that come in have its name; check() is called before make().
+ * Its arguments are options with its name; check() is called before make().
  */
 class IntegrationMethod
 {
@@ -72,52 +72,52 @@ public:
 
   virtual const std::vector<MethodParameter> &parameters() const; ///< none by default
   virtual bool                                takes_order() const { return false; }
-  /// Order where none is given; 0: with these options it has but one.
+  /// Default order; 0: with these options there is only one.
   virtual int  default_order(const MethodOptions &) const { return 0; }
   virtual bool can_control_error() const { return false; }
 
   /// "BDF 2", "generalised alpha 0.8"
   virtual std::string label(const MethodOptions &options) const = 0;
-  /// Further to step, tolerance and the ranges of parameters().
-  /// @throws std::invalid_argument naming the parameter, its value and what it may be
+  /// Checks in addition to step, tolerance and the ranges of parameters().
+  /// @throws std::invalid_argument with the parameter, its value and the allowed range
   virtual void check(const MethodOptions &) const {}
   /// @throws std::invalid_argument if the method cannot treat the system, with the reason
   virtual std::unique_ptr<TimeIntegrator> make(const SecondOrderSystem &system, const MethodOptions &options) const = 0;
 
   /**
-   * The step as a matrix on the state that the method carries, lengths in units of x, times in units of h; (x, h x')
-   * or (x, h x', h^2 x'') for methods of one step, of others whatever begins with x.
+   * The step as a matrix on the state of the method, lengths in units of x, times in units of h: (x, h x') or (x, h x',
+   * h^2 x'') for one-step methods, for others a state that begins with x.
    */
   virtual Eigen::MatrixXd amplification_matrix(const MethodOptions  &options,
                                                const TestOscillator &oscillator) const = 0;
-  /// Its roots; by default the eigenvalues of the matrix, whose rounding, 1e-13, counts as no growth.
+  /// Its roots; by default the eigenvalues of the matrix, where growth below the rounding error 1e-13 is ignored.
   virtual CharacteristicRoots roots(const MethodOptions &options, const TestOscillator &oscillator) const;
   /// (x, h x') after 1, 2, ... n steps, from consistent accelerations; by default with the matrix of the first step.
   virtual std::vector<Eigen::Vector2d> first_steps(const MethodOptions &options, const TestOscillator &oscillator,
                                                    const Eigen::Vector2d &start, int n, FirstSteps kind) const;
-  /// Where modes are not carried one by one.
+  /// For methods that do not integrate modes separately.
   virtual std::optional<StepWeights> step_weights(const MethodOptions &, double r) const
   {
     return (void)r, std::nullopt;
   }
-  /// Where vibrating motions may grow: a method with step_weights() that falls short of second order's damping.
+  /// For vibrations that can grow: methods with step_weights() and less damping than a method of second order.
   virtual std::optional<BilinearWeights> growing_weights(const MethodOptions &) const { return {}; }
 
   /// The linear base system is propagated exactly: only the springs of elements limit the step.
   virtual bool carries_base() const { return false; }
-  /// Steps may be long against what moves in them, as those of high order are.
+  /// Steps may be long compared with the motion, as for methods of high order.
   virtual bool takes_long_steps(const MethodOptions &options) const { return controlled(options); }
-  /// What keeps the energy better than `options` do, as a sentence; empty: nothing beyond a smaller step.
+  /// How to conserve energy better than with `options`, in a sentence; empty: only a smaller step helps.
   virtual std::string energy_advice(const MethodOptions &) const { return ""; }
 
-  virtual std::string               family() const = 0; ///< of charts: methods of one colour
+  virtual std::string               family() const = 0; ///< of charts: methods with one colour
   virtual std::vector<ChartSetting> chart_settings() const { return {{name(), named(), false}}; }
 
   double      number(const MethodOptions &options, const std::string &parameter) const;
   std::string choice(const MethodOptions &options, const std::string &parameter) const;
 
 protected:
-  /// Options of this method.
+  /// Options with the name of this method.
   MethodOptions named() const;
 
 private:

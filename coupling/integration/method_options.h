@@ -12,24 +12,24 @@ namespace gestell::coupling
 
 class SharedModes;
 
-/// A parameter that one method has: a number, or one of its choices.
+/// A parameter of a single method: a number, or one of its choices.
 using MethodValue = std::variant<double, std::string>;
 
 /// A method of integration by its name in integration_methods(), with all its parameters.
 struct MethodOptions
 {
   std::string   method       = "bdf";
-  int           order        = 2;  ///< of methods that take one, see IntegrationMethod::takes_order()
+  int           order        = 2;  ///< for methods with an order, see IntegrationMethod::takes_order()
   double        step         = 0.; ///< [s]; fixed, or the largest one if a tolerance is given
   double        tolerance    = 0.; ///< of the local error, relative to the scales of the motion; 0: fixed step
-  int           max_halvings = 10; ///< of the step when Newton fails
+  int           max_halvings = 10; ///< of the step if Newton fails
   NewtonOptions newton{};
 
-  /// Parameters of IntegrationMethod::parameters(); those left out have their default, those of other methods are not
-  /// looked at.
+  /// Parameters of IntegrationMethod::parameters(); missing ones have their default, those of other methods are
+  /// ignored.
   std::map<std::string, MethodValue> own{};
 
-  /// Of the base, kept for systems with the same matrices by methods that work in modes; null: found by each.
+  /// Modes of the base system, shared between systems with the same matrices by methods with modes; null: not shared.
   std::shared_ptr<SharedModes> modes{};
 
   void set(const std::string &parameter, double value) { own[parameter] = value; }
@@ -44,7 +44,7 @@ struct MethodOptions
   }
 };
 
-/// A method by its name; the rest as usual.
+/// A method by its name, with defaults otherwise.
 inline MethodOptions options_of(const std::string &method, int order = 2)
 {
   MethodOptions options;
@@ -53,7 +53,7 @@ inline MethodOptions options_of(const std::string &method, int order = 2)
   return options;
 }
 
-/// Whether the error of steps is controlled, not their length fixed.
+/// Whether the error of steps is controlled, instead of a fixed length.
 inline bool controlled(const MethodOptions &options)
 {
   return options.tolerance > 0.;

@@ -12,24 +12,24 @@ namespace gestell::coupling
  *
  *     M q'' = f_t + W p(t, u, u', history) - B q' - C q,
  *
- * as good as positions, velocities and multipliers of joints are, for every method, at ends of steps and on the dense
- * output, on either side of an event.  At ends of steps of BDF they are those of its formula.
+ * with the accuracy of positions, velocities and multipliers of joints, for every method, at ends of steps and on the
+ * dense output, before and after an event.  At ends of steps of BDF they are those of its formula.
  *
- * Virtual coordinates have none: 0.
+ * For virtual coordinates they are 0.
  */
 class Accelerations
 {
 public:
   /// Factorises M.
-  /// @throws std::invalid_argument if M is singular, naming a coordinate without mass
+  /// @throws std::invalid_argument if M is singular, with a coordinate without mass
   explicit Accelerations(const SecondOrderSystem &system);
 
-  /// @param q, v   [n]
-  /// @param local  the same motion in the measures; its p is taken where no law tells it, of joints and of what sticks
+  /// @param q,     v   [n]
+  /// @param local  the same motion in the measures; its p is used for joints and sticking elements, which have no law
   const Eigen::VectorXd &at(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const LocalState &local);
   /// The same at t in the last step of an integrator.
   /// @param local  the motion of the measures there
-  /// @param q, v   [n] become the motion there
+  /// @param q,     v   [n] receive the motion there
   const Eigen::VectorXd &at(double t, const TimeIntegrator &integrator, const LocalState &local, Eigen::VectorXd &q,
                             Eigen::VectorXd &v);
 

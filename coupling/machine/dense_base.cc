@@ -26,7 +26,7 @@ bool is_zero(const MatrixXd &A)
   return A.size() == 0 || A.cwiseAbs().maxCoeff() == 0.;
 }
 
-/// But for what rounding of the modes leaves where theory has zeros, as of damping after Rayleigh.
+/// Up to the rounding of modes where theory has zeros, as for Rayleigh damping.
 bool is_diagonal(const MatrixXd &A)
 {
   constexpr double rounding = 1e-10; // of modes that are found to some 1e-12
@@ -52,9 +52,8 @@ void require(bool condition, const std::string &message)
 
 /**
  * A^-1 of a symmetric matrix: scaled to unit diagonal, inverted by Cholesky (or by LU if A is indefinite), and improved
- * by one step of Newton's iteration X <- X (2 E - A X), which squares what rounding left.
- *
- * @param names of the coordinates the rows of A stand for, for messages.
+ * by one step of Newton's iteration X <- X (2 E - A X), which squares the rounding error.
+ * @param names  of the coordinates of the rows of A, for messages.
  */
 MatrixXd inverse(const MatrixXd &A, const std::vector<int> &names)
 {
@@ -97,7 +96,7 @@ private:
   MatrixXd A_inverse_;
 };
 
-/// to = of x at the places of `which`, one behind the other.
+/// to = entries of x at the positions `which`.
 void gather(const VectorXd &x, const std::vector<int> &which, VectorXd &to)
 {
   for (std::size_t i = 0; i < which.size(); ++i)
@@ -257,7 +256,7 @@ std::vector<int> all_but(int n, const ModalRange &L)
   return rest;
 }
 
-/// Number of first columns that hold all which is not zero.
+/// Number of leading columns that contain all nonzero entries.
 Eigen::Index last_column(const MatrixXd &A)
 {
   Eigen::Index k = A.cols();
@@ -348,7 +347,7 @@ std::unique_ptr<LinearSolver> DenseBase::factorise(double w_M, double w_B, doubl
     require(A.allFinite(), "the matrix of the time step overflows");
     return std::make_unique<InverseSolver>(inverse(A, all));
   }
-  // By blocks: the whole of A is mostly zeros, and integrators that change their step ask often.
+  // By blocks: most of A is zero, and integrators that change their step call this often.
   const MatrixXd NN       = w_M * mass_.NN + w_B * damping_.NN + w_C * stiffness_.NN;
   const VectorXd diagonal = w_M * mass_.diagonal + w_B * damping_.diagonal + w_C * stiffness_.diagonal;
   const auto     k        = std::max(mass_.LN.cols(), damping_.LN.cols());

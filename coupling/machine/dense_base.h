@@ -9,37 +9,37 @@
 namespace gestell::coupling
 {
 
-/// The modal coordinates L of a base system: n of them, one behind the other.
+/// The modal coordinates L of a base system: n of them, consecutive.
 struct ModalRange
 {
   int first = 0, n = 0;
 };
 
 /**
- * Small dense base system, with the structure that Craig-Bampton coordinates have.  With L the modal coordinates, N the
- * others,
+ * Small dense base system with the structure of Craig-Bampton coordinates.  With the modal coordinates L and the others
+ * N,
  *
  *     M = [ M_NN  M_NL ]      C = [ C_NN   0   ]      B = [ B_NN  B_NL ]
  *         [ M_LN   E   ]          [  0    C_LL ],         [ B_LN  B_LL ],     C_LL diagonal, B_LL diagonal or full.
  *
- * Multiplications leave out the zeros.  factorise() condenses L (5.5.3/1-7) where B_LL is diagonal:
+ * Products skip the zeros.  factorise() condenses L (5.5.3/1-7) if B_LL is diagonal:
  *
  *     q_N = A_red^-1 (f_N - A_NL A_LL^-1 f_L),     q_L = A_LL^-1 (f_L - A_LN q_N);
  *
- * N leads then (LinearSolver), and for loads M h + f of a step one pass over M_LN does for each of the two where A_LN
- * is a multiple of it, as without damping of q_N against q_L or with Rayleigh's.
+ * N are then the leading coordinates (LinearSolver).  For loads M h + f of a step a single pass over M_LN suffices for
+ * each of the two equations if A_LN is a multiple of it, as with Rayleigh damping or none between q_N and q_L.
  *
- * Where modal damping of the supported frame fills B_LL, the inverse of the whole A is kept, which for some sixty
- * coordinates multiplies faster than two triangles are solved.  A is scaled to unit diagonal before it is inverted, so
- * that metres and radians do not spoil its condition.  Nothing allocates after factorise().
+ * If modal damping of the supported frame fills B_LL, the inverse of the whole A is stored: for about sixty coordinates
+ * its product is faster than two triangular solutions.  A is scaled to unit diagonal before it is inverted, so that the
+ * mixture of metres and radians does not impair its condition.  Nothing allocates after factorise().
  *
- * Workspaces are kept inside: one object serves one thread at a time.
+ * Workspaces are members: an object must be used by one thread at a time.
  */
 class DenseBase : public LinearBase
 {
 public:
-  /// @param M, B, C  symmetric [n x n]
-  /// @throws std::invalid_argument for sizes, symmetry or structure that do not fit
+  /// @param M,  B, C  symmetric [n x n]
+  /// @throws std::invalid_argument for wrong sizes, symmetry or structure
   DenseBase(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C, const ModalRange &modal = {});
 
   int                           size() const override { return int(M_.rows()); }
@@ -59,7 +59,7 @@ private:
   struct Blocks
   {
     Eigen::MatrixXd NN;       // [n_N x n_N]
-    Eigen::MatrixXd LN;       // [n_L x k] its first columns, up to the last that is not zero; empty if there is none
+    Eigen::MatrixXd LN;       // [n_L x k] its first columns, up to the last non-zero one; empty if there is none
     Eigen::VectorXd diagonal; // [n_L] of LL
     Eigen::MatrixXd LL;       // [n_L x n_L]; empty if diagonal
   };

@@ -7,8 +7,7 @@
 namespace gestell::coupling
 {
 
-/// The law of that kind that an element is, or that it transmits through measures or switches; null if it is another
-/// one.
+/// The law of this kind in an element, directly or behind measures or switches; null if it has another law.
 template <typename Law>
 const Law *law_of(const ElementPlacement &placement)
 {

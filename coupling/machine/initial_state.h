@@ -8,16 +8,16 @@
 namespace gestell::coupling
 {
 
-/// Where a run begins.
+/// Initial state of a run.
 struct InitialState
 {
   double          t = 0.;
   Eigen::VectorXd q, v;            // [n]
-  bool            settled = false; ///< in equilibrium: contacts are closed by the forces they carry
+  bool            settled = false; ///< in equilibrium: contacts are closed by their forces
 
-  std::vector<std::string> notes{}; ///< what a user should know of how it was found
+  std::vector<std::string> notes{}; ///< how it was found, for the user
 
-  double still = 0.; ///< [m/s, rad/s] sliding speed that is none: see EventOptions
+  double still = 0.; ///< [m/s, rad/s] sliding speed treated as zero: see EventOptions
 };
 
 } // namespace gestell::coupling

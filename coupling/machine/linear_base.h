@@ -11,10 +11,10 @@ namespace gestell::coupling
 {
 
 /**
- * The linear base system M q'' + B q' + C q of a machine (5.5.2/1), constant and symmetric, in the storage that suits
- * it.
+ * The linear base system M q'' + B q' + C q of a machine (5.5.2/1), constant and symmetric, in a suitable storage
+ * format.
  *
- * Results are written into vectors of the right size without allocation; x and y are different vectors.
+ * Results are written into vectors of the right size without allocation; x and y must be different vectors.
  */
 class LinearBase
 {
@@ -26,8 +26,8 @@ public:
   virtual void damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const   = 0;
   virtual void stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const = 0;
 
-  /// Solver for A = w_M M + w_B B + w_C C (5.5.2/13); it lives on its own after the base is gone.
-  /// @throws std::invalid_argument if A is singular, naming the coordinate by its index.
+  /// Solver for A = w_M M + w_B B + w_C C (5.5.2/13); it is independent of the lifetime of the base.
+  /// @throws std::invalid_argument if A is singular, with the index of the coordinate.
   virtual std::unique_ptr<LinearSolver> factorise(double w_M, double w_B, double w_C) const = 0;
 
   /// Modes of the undamped system, omega ascending, each with the damping ratio v^T B v / (2 omega v^T M v); a mode

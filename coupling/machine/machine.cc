@@ -213,8 +213,8 @@ std::vector<std::string> Machine::closed_contacts(const LocalState &state) const
   {
     const auto  &part = parts_->placed[e];
     const double deep = part.structure ? part.structure->penetration(part.motion(state, false)) : 0.;
-    // [m, rad] A contact that is described as just touching may be closed by rounding. Absolute, for a warning alone:
-    // what starts a nanometre deep is pushed away with no force to speak of.
+    // [m, rad] A contact that just touches in the scene may be closed by rounding.  Absolute, only for a warning: an
+    // initial penetration of a nanometre causes no significant force.
     constexpr double touching = 1e-9;
     if (deep <= touching)
       continue;

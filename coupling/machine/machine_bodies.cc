@@ -78,7 +78,7 @@ int MachineModel::add_slider(const std::string &name, const Vector3 &axis, doubl
   const auto sideways = across(base.translation, a);
   for (int d = 0; d < 3; ++d)
     own.translation[d] = sideways[d] + a[d] * Measure{{x, 1.}};
-  // Along a and across it do not couple: added apart, so that no rounding does it either.
+  // Directions along a and across it are uncoupled; adding them separately keeps rounding from coupling them.
   parts_->add_dyad(parts_->M, mass, {{x, 1.}});
   for (int d = 0; d < 3; ++d)
     parts_->add_dyad(parts_->M, mass, sideways[d]);
@@ -102,7 +102,7 @@ int MachineModel::add_point(const std::string &name, double mass, const Vector3 
 
 namespace
 {
-/// The global axis the unit vector n lies along; -1: none.
+/// The global axis parallel to the unit vector n; -1: none.
 int global_axis(const Vector3 &n)
 {
   for (int d = 0; d < 3; ++d)
@@ -190,7 +190,7 @@ struct LinearPlace
   }
 };
 
-/// A rotation without that of one coordinate: of a rotor what its carrier turns it across its axis.
+/// A rotation without that of one coordinate: for a rotor the part in which its carrier tilts its axis.
 std::array<Measure, 3> without(std::array<Measure, 3> rotation, int coordinate)
 {
   for (Measure &u : rotation)
@@ -198,7 +198,7 @@ std::array<Measure, 3> without(std::array<Measure, 3> rotation, int coordinate)
   return rotation;
 }
 
-/// On a body that has its place by its own coordinates alone.
+/// For a body whose position depends only on its own coordinates.
 PlacedPoint place_on(const Body &body, const Vector3 &at)
 {
   const Vector3d centre = vector(body.centre), zero = Vector3d::Zero();
@@ -264,7 +264,7 @@ PlacedPoint MachineModel::place(const std::string &name, const Vector3 &at) cons
   return placed;
 }
 
-/// A carrier's rotation is taken as small: one that turns by any angle would stretch what it carries.
+/// A carrier's rotation is assumed small: with large rotations its loads would be stretched.
 void MachineModel::refuse_far_turning(const std::string &name, const std::array<Measure, 3> &rotation) const
 {
   for (const Body &body : parts_->bodies)
@@ -377,7 +377,7 @@ void MachineModel::draw(const std::string &body_name, const Vector3 &position, d
       body.position = position;
       if ((body.kind == BodyKind::rotor || body.kind == BodyKind::slider) && position != Vector3{} &&
           !parts_->moves_with_frame(body.marker))
-        body.centre = parts_->positions[body.name] = position; // no interface tells where it is
+        body.centre = parts_->positions[body.name] = position; // no interface gives its position
       body.radius = radius;
       body.size   = size;
       return;

@@ -137,10 +137,10 @@ bool MachineJoints::wants_multipliers() const
 {
   const auto watches_joint = [&](const MachineParts::PlacedSwitch &own)
   { return own.signal.element >= 0 && parts_.placed[own.watched].tells_multipliers(own.signal.quantity); };
-  // What sticks in a joint holds as long as its limit, which follows from multipliers, lets it.
+  // Friction in a joint sticks up to its limit, which follows from multipliers.
   const auto sticks_in_joint = [](const MachineParts::PlacedElement &part)
   { return part.holds && part.first_multiplier >= 0; };
-  // The balance of energy looks at what a prescribed motion feeds.
+  // The energy balance needs the power of a prescribed motion.
   const auto drives = [this](int joint) { return parts_.placed[joint].drives; };
   return parts_.reads_joints || std::any_of(parts_.placed.begin(), parts_.placed.end(), sticks_in_joint) ||
          std::any_of(parts_.joints.begin(), parts_.joints.end(), drives) ||

@@ -12,11 +12,11 @@
 namespace gestell::coupling
 {
 
-/// A scalar the user asks for: scale * (on_q . q + on_v . q' + on_a . q'' + quantity of an element + load at the time +
-/// offset).
+/// A scalar requested by the user: scale * (on_q . q + on_v . q' + on_a . q'' + quantity of an element + load at the
+/// time + offset).
 struct Signal
 {
-  std::string name; ///< the user's, e.g. "F_P"
+  std::string name; ///< given by the user, e.g. "F_P"
   std::string unit; ///< "N"
   Measure     on_q, on_v;
   int         element  = -1;
@@ -24,8 +24,8 @@ struct Signal
   double      scale    = 1.;
   double      offset   = 0.;
   int         load     = -1; ///< external load
-  std::string from{};        ///< an event, by the name of its object: extremes count from there on; empty: always
-  int         measure = -1;  ///< of add_measure(), whose value (quantity 0), rate (1) or acceleration (2) it is
+  std::string from{};        ///< event, by the name of its object, after which extremes are evaluated; empty: always
+  int         measure = -1;  ///< of add_measure(): value (quantity 0), rate (1) or acceleration (2)
   double      on_t    = 0.;  ///< weight of the time
   Measure     on_a{};
 
@@ -38,12 +38,12 @@ enum class BodyKind
   slider, ///< one displacement [m] along `axis`
   point,  ///< three displacements [m]
   planar, ///< two displacements [m] across `axis` and the angle [rad] about it
-  rigid   ///< three displacements [m] and those of the three directors [1]: turns freely in space
+  rigid   ///< three displacements [m] and those of the three directors [1]: a free spatial body
 };
 
-/// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`; a point,
-/// planar or rigid body as such a box too, else as a sphere, a plate through its `points`, bars to them.  Its
-/// coordinates are zero in the reference configuration.
+/// A body of the mechanism.  It is drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`; a
+/// point, planar or rigid body also as a box, or without a size as a sphere, a plate through its `points`, bars to
+/// them.  Its coordinates are zero in the reference configuration.
 struct Body
 {
   std::string name;
@@ -54,16 +54,16 @@ struct Body
   double      radius = 0.;
   Vector3     size{};
   Marker      marker;
-  Vector3     centre{};     ///< [m] about which it turns: that of a rotor, the centre of mass of the others
+  Vector3     centre{};     ///< [m] centre of rotation: that of a rotor, the centre of mass of the others
   Vector3     e_1{}, e_2{}; ///< of `planar`: unit vectors of its displacements
 
-  std::vector<Vector3> points{}; ///< [m] at zero displacement: where joints and measures take hold of it
+  std::vector<Vector3> points{}; ///< [m] at zero displacement: where joints and measures are attached
 };
 
-/// Two unit vectors across the unit vector n: global axes if n is one, in their order.
+/// Two unit vectors normal to the unit vector n: if n is a global axis the other two, in their order.
 std::pair<Vector3, Vector3> plane_across(const Vector3 &n);
 
-/// Names of the coordinates of a planar body: "rod.ux", "rod.uz", "rod.angle" across a global axis, else "rod.s1" ...
+/// Names of the coordinates of a planar body: "rod.ux", "rod.uz", "rod.angle" for a global normal, else "rod.s1" ...
 /// @param normal  unit vector
 std::array<std::string, 3> planar_coordinates(const std::string &name, const Vector3 &normal);
 
@@ -81,14 +81,14 @@ struct DrawnRod
   double      crank_radius = 0., length = 0.;
 };
 
-/// Bar drawn between two places whose distance matters: a rod, a rope, a cylinder, a spring.
+/// Bar drawn between two points with a relevant distance: a rod, a rope, a cylinder, a spring.
 struct DrawnBar
 {
   std::string name;
   PlacedPoint from, to;
 };
 
-/// Pin drawn where two bodies turn against each other.
+/// Pin drawn where two bodies rotate relative to each other.
 struct DrawnPin
 {
   PlacedPoint at;
@@ -120,7 +120,7 @@ struct NamedMeasure
   double acceleration(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a) const;
 };
 
-/// A command of a switch, and the element or joint it goes to.
+/// A command of a switch, and its target, an element or joint.
 struct SwitchOrder
 {
   std::string              element;
@@ -134,25 +134,25 @@ enum class SwitchCrossing
   either ///< from the side of the signal when the switch is armed
 };
 
-/// When a signal crosses a level, elements are given orders: once, or every time.
+/// Sends commands to elements when a signal crosses a level: once, or every time.
 struct Switch
 {
   std::string              name, signal; ///< path of the signal; "t": the time
   double                   level    = 0.;
   SwitchCrossing           crossing = SwitchCrossing::rising;
   std::vector<SwitchOrder> orders;
-  double                   delay      = 0.; ///< [s] from the crossing to the orders
-  std::string              after      = ""; ///< name of a switch; watches from its orders on. Empty: always
+  double                   delay      = 0.; ///< [s] from the crossing to the commands
+  std::string              after      = ""; ///< name of a switch whose commands arm this one. Empty: always armed
   bool                     repeat     = false;
-  double                   hysteresis = 0.; ///< of `repeat`: how far the signal must have come back (either: gone away)
-  std::string              ends       = ""; ///< not empty: its orders end the run, which tells this statement
+  double                   hysteresis = 0.; ///< for `repeat`: how far the signal must return (either: move away)
+  std::string              ends       = ""; ///< not empty: its commands end the run with this statement
 };
 
-/// What the measures of an element are.
+/// Kind of the measures of an element.
 enum class MeasureKind
 {
-  displacement, ///< or several of all kinds, which the element itself tells apart
-  angle         ///< of an element that could act on a displacement, too: its forces are torques
+  displacement, ///< also several kinds that the element distinguishes
+  angle         ///< for an element that could also act on a displacement: its forces are torques
 };
 
 struct ElementPlacement

@@ -113,9 +113,9 @@ void MachineParts::finish()
 {
   const int n       = size();
   translation_loads = Eigen::MatrixXd::Zero(n, 3);
-  // Coordinates of a mechanism without frame from which on sparse matrices are cheaper: with ideal joints soon; without
-  // any, where nine dense ones of the base system (M, B, C, their blocks and what they are made of) pass 300 MB. Up to
-  // there all that works on dense ones can be asked of it.
+  // Number of coordinates of a mechanism without frame above which sparse matrices are cheaper: small with ideal
+  // joints; without any, where nine dense matrices of the base system (M, B, C, their blocks and inputs) exceed 300 MB.
+  // Below it functions that need dense matrices are available.
   constexpr int dense_jointed = 60, dense_mechanism = 2000;
   if (full)
     assemble_sparse(n);
@@ -138,7 +138,7 @@ void MachineParts::finish()
       for (const auto &[coordinate, value] : load.u)
         excitation.add_harmonic(coordinate, part.omega, value * part.amplitude * std::sin(part.phase),
                                 value * part.amplitude * std::cos(part.phase));
-  known_signals = signals(); // watches tell none
+  known_signals = signals(); // monitored signals must not be among them
   add_watches();
   place_elements(n);
   place_switches();
@@ -185,7 +185,7 @@ bool MachineParts::has_joints() const
                      [](const ElementPlacement &placement) { return placement.element->ideal_joint() != nullptr; });
 }
 
-/// Bodies alone: a few numbers per row.
+/// Only bodies: a few numbers per row.
 void MachineParts::assemble_mechanism(int n)
 {
   const Eigen::SparseMatrix<double> zero(n, n);

@@ -12,13 +12,13 @@
 namespace gestell::coupling
 {
 
-/// What a Machine is made of, while it is built and afterwards.
+/// The parts of a Machine, while it is built and afterwards.
 struct MachineParts
 {
   using Triplets                    = std::vector<Eigen::Triplet<double>>;
   static constexpr int max_measures = ///< per element
       mechanism::CombinedMeasure::max_measures + mechanism::TransmittedElement::max_virtual;
-  static constexpr int max_constraints = 6; ///< per joint: what two bodies in space have to move against each other
+  static constexpr int max_constraints = 6; ///< per joint: DOFs of two bodies in space relative to each other
 
   /// Spring, damper and constant force on one measure, part of the base system.
   struct LinearElement
@@ -29,19 +29,19 @@ struct MachineParts
     std::string unit;
   };
 
-  /// An element with its place in u and in the history; a copy of what the hot loop needs, side by side.
+  /// An element with its position in u and in the history; a contiguous copy of the data for the hot loop.
   struct PlacedElement
   {
     const mechanism::Element *element;
     int                       first_measure, n_measures, first_history;
-    int         n_motions; ///< measures that do work: the first ones; first-order states after them do none
-    bool        holds            = false; ///< its measure sticks: its force is an unknown of the step
-    int         came             = 0;     ///< in its transition, sign of the motion that comes to rest; else 0
+    int         n_motions; ///< measures that do work, the first ones; first-order states after them do not
+    bool        holds            = false; ///< it sticks: its force is an unknown of the step
+    int         came             = 0;     ///< during its transition the sign of the motion that comes to rest; else 0
     int         first_constraint = -1;    ///< of an ideal joint: the first row of its equations
-    int         first_multiplier = -1;    ///< of a joint or its friction: the first one it sees
+    int         first_multiplier = -1;    ///< of a joint or its friction: the first one that it reads
     std::string name{};                   ///< in the scene
 
-    // Which of the two it is, and its facets; null where it has none.
+    // Whether it is a law or a joint, with its interfaces; null if it has none.
     const mechanism::ForceLaw   *law       = element->force_law();
     const mechanism::Constraint *joint     = element->ideal_joint();
     const mechanism::Branches   *branches  = element->branches();
@@ -49,19 +49,19 @@ struct MachineParts
     const mechanism::Commands   *commands  = element->commands();
     bool                         drives    = element->work() == mechanism::Work::input;
 
-    /// Of dry friction in a joint, in the history of the machine: 1 where others stop its motion; then the sign of
+    /// For dry friction in a joint, in the history of the machine: 1 if others stop its motion; then the sign of
     /// sliding before it stuck.
     int stop = -1;
 
     /// Its force is not the value of a law but follows from the equations of the step.
     bool implied() const { return holds || first_constraint >= 0; }
-    /// The quantity follows from multipliers, its own or (of friction in a joint) those of another.
+    /// Whether the quantity follows from multipliers, its own or (friction in a joint) those of another element.
     bool tells_multipliers(int quantity) const
     {
       return first_multiplier >= 0 && (!joint || joint->needs_multipliers(quantity));
     }
 
-    /// A branch of its law holds its measure at u' = rate.
+    /// Whether the present branch of its law prescribes u' = rate.
     bool sticks(const double *history, double &rate) const { return branches && branches->holds(history, rate); }
 
     mechanism::LocalMotion motion(const LocalState &state, bool by_history) const
@@ -87,35 +87,35 @@ struct MachineParts
     double at(double t) const;
   };
 
-  /// What a switch does at an instant.
+  /// State of a switch.
   enum class SwitchPhase
   {
     watches,
     waits,   ///< for another switch
-    delays,  ///< its orders
+    delays,  ///< of its commands
     returns, ///< its signal must return before it is armed again
-    rests    ///< for good
+    rests    ///< finished
   };
 
-  /// A switch: what it watches lies in u (of a placed element, or of one of its own).
+  /// A switch: its signal is in u (of a placed element, or of its own).
   struct PlacedSwitch
   {
     Switch           request;
     Signal           signal;
     int              watched = -1; ///< element whose measures contain the signal; none for the time
-    std::vector<int> targets;      ///< elements that get the orders
+    std::vector<int> targets;      ///< elements that receive the commands
     int              after   = -1; ///< index of the switch it waits for
-    int              history = -1; ///< its phase; time [s] at which delayed orders are due; see watch()
+    int              history = -1; ///< its phase; time [s] at which delayed commands are due; see watch()
   };
 
   struct PlacedGuard
   {
-    int           element, index; ///< of a switch: element -1, index of the switch
+    int           element, index; ///< for a switch: element -1, index of the switch
     GuardCrossing crossing;
     ActiveGuard   guard;
   };
 
-  /// A point whose motion signals tell: its measures along x, y, z are three of `measures`.
+  /// A point with signals: its measures along x, y, z are three of `measures`.
   struct NamedPlace
   {
     std::string name;
@@ -146,7 +146,7 @@ struct MachineParts
   std::vector<Load>                   loads;
   std::array<Measure, 3>              acceleration_load; ///< of the bodies for a unit acceleration in x, y, z
 
-  std::map<std::string, Signal> known_signals;          ///< of an assembled machine: all there are, by path
+  std::map<std::string, Signal> known_signals;          ///< of an assembled machine: all signals, by path
   Eigen::VectorXd               superposed_frequencies; ///< [m] rad/s; empty: it is not in modes
 
   // finished
@@ -162,13 +162,13 @@ struct MachineParts
   std::vector<PlacedGuard>     guards; ///< of elements, then of switches
   std::vector<PlacedSwitch>    switches;
   std::vector<HeldMeasure>     held;
-  std::vector<HeldMeasure>     held_too;      ///< measures whose rate follows from those that are held
-  LocalState                   watched_state; ///< of guards: with these rates
+  std::vector<HeldMeasure>     held_too;      ///< measures whose rate follows from those of sticking ones
+  LocalState                   watched_state; ///< for guards: with these rates
   bool                         by_history = false, reads_joints = false;
 
   int  size() const { return n_frame + static_cast<int>(coordinate_names.size()); }
   int  add_coordinates(const std::string &body, const std::vector<std::string> &names);
-  bool is_lag(const Measure &u) const; ///< the measure is a virtual coordinate
+  bool is_lag(const Measure &u) const; ///< whether the measure is a virtual coordinate
   void add_body(const Body &body);
   void add_interfaces(const std::vector<fem::Interface> &interfaces);
   void add_dyad(Triplets &matrix, double factor, const Measure &w); ///< matrix += factor w w^T
@@ -176,7 +176,7 @@ struct MachineParts
   void add_mass(double mass, const std::array<Measure, 3> &translation);
   /// Inertia of a rigid body at its directors, the first coordinate of which is `first`.
   void add_inertia(const std::string &what, const Eigen::Matrix3d &inertia, int first, bool is_whole_body);
-  /// Refuses a rigid body as a carrier.
+  /// Rejects a rigid body as a carrier.
   void refuse_free_carrier(const Marker &carrier, const std::string &what) const;
   /// Motion of the point of a body at the arm [m] from its reference point.
   std::array<Measure, 3> moved_point(const Marker &marker, const Vector3 &arm) const;
@@ -194,10 +194,10 @@ struct MachineParts
   void                          refresh_guards();
   void                          find_stopped(const LocalState &state);
   void                          find_held_too();
-  double                        held_rate(int measure) const; ///< of a measure that sticks
-  /// lambda . G u' with G u' = -rate, as the joint prescribes it: what drives it feeds.
+  double                        held_rate(int measure) const; ///< prescribed rate of a sticking measure
+  /// lambda . G u' with G u' = -rate, the motion prescribed by the joint: power of its drive.
   double prescribed_power(const PlacedElement &joint, const LocalState &state) const;
-  /// -p . u' - dE/dt of its law; forces of the state carry what an iteration has left.
+  /// -p . u' - dE/dt of its law; forces of the state include the residual of an iteration.
   double        taken_power(const PlacedElement &part, const LocalState &state) const;
   bool          is_stopped(const PlacedElement &part) const { return part.stop >= 0 && history[part.stop] != 0.; }
   Signal        watched_signal(const Switch &request) const;
@@ -208,7 +208,7 @@ struct MachineParts
   void          find_sides(const LocalState &state);
   bool          tells_found_force(const PlacedSwitch &s) const;
   SwitchPhase   phase(const PlacedSwitch &s) const;
-  bool          is_active(const PlacedSwitch &s) const; ///< it has a guard
+  bool          is_active(const PlacedSwitch &s) const; ///< whether it has a guard
   GuardCrossing switch_crossing(const PlacedSwitch &s) const;
   std::string   switch_event(const PlacedSwitch &s) const;
   double        switch_guard(const PlacedSwitch &s, const LocalState &state) const;
@@ -216,7 +216,7 @@ struct MachineParts
   void          throw_switch(int index, const LocalState &state);
   void          give_orders(int index, const LocalState &state);
   std::string   coordinate_name(int i) const;
-  std::map<std::string, Signal> signals() const; ///< all there are, by path
+  std::map<std::string, Signal> signals() const; ///< all signals, by path
   Signal                        signal(const std::string &path) const;
 
   double       *history_of(const PlacedElement &part) { return history.data() + part.first_history; }

@@ -10,7 +10,7 @@
 namespace gestell::coupling
 {
 
-// Bodies that turn freely in space: docs/theory/joints.md, (6a).
+// Free spatial bodies: docs/theory/joints.md, (6a).
 
 namespace
 {
@@ -66,7 +66,7 @@ void MachineParts::add_inertia(const std::string &what, const Eigen::Matrix3d &i
     throw std::invalid_argument(what + ": the principal moments of inertia are " + listed(moments) +
                                 "; none may exceed the sum of the other two, which no distribution of mass can do: "
                                 "check them, or that they are taken about the centre of mass");
-  // Share of the largest moment that E has at least: a body this thin cannot be told from one without thickness.
+  // Smallest share of E in the largest moment: a thinner body cannot be distinguished from one without thickness.
   constexpr double thinnest = 1e-10;
   if (is_whole_body && !(least > thinnest * moments[2]))
     throw std::invalid_argument(what + ": the principal moments of inertia are " + listed(moments) +
@@ -91,7 +91,7 @@ void MachineParts::refuse_free_carrier(const Marker &carrier, const std::string 
 std::array<Measure, 3> MachineParts::moved_point(const Marker &marker, const Vector3 &arm) const
 {
   std::array<Measure, 3> moved = marker.translation;
-  if (marker.turns_freely) // linear in the directors, however far they turn
+  if (marker.turns_freely) // linear in the directors for any rotation
   {
     const int first = marker.translation[0].front().first + 3;
     for (int d = 0; d < 3; ++d)

@@ -202,7 +202,7 @@ private:
     signal.unit     = measure.unit + (derivative == 0 ? "" : derivative == 1 ? "/s" : "/s^2");
     signal.measure  = i;
     signal.quantity = derivative;
-    for (const Measure &u : measure.measures) // so that whoever reads the signal provides their motion
+    for (const Measure &u : measure.measures) // so that the reader provides their motion
       for (const auto &[coordinate, weight] : u)
         signal.on_q.emplace_back(coordinate, 0.);
     return signals_[path] = signal;
@@ -248,7 +248,7 @@ Signal MachineParts::signal(const std::string &path) const
 {
   const bool        minus    = !path.empty() && path[0] == '-';
   const auto        begin    = minus ? path.find_first_not_of("- ") : 0;
-  const std::string positive = begin == std::string::npos ? path : path.substr(begin); // "-" alone names nothing
+  const std::string positive = begin == std::string::npos ? path : path.substr(begin); // "-" without a name is invalid
   const auto        made     = known_signals.empty() ? signals() : std::map<std::string, Signal>();
   const auto       &known    = known_signals.empty() ? made : known_signals;
   const auto        found    = known.find(positive);

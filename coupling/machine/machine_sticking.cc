@@ -9,11 +9,11 @@ namespace gestell::coupling
 namespace
 {
 
-/// What rows of velocities span, all of the same length; orthonormal.
+/// The space spanned by rows of velocities, all of the same length; orthonormal.
 class Span
 {
 public:
-  /// False: the row is in the span already.
+  /// Returns false if the span already contains the row.
   bool add(const Eigen::VectorXd &row)
   {
     const Eigen::VectorXd rest = rest_of(row);
@@ -39,7 +39,7 @@ private:
   std::vector<Eigen::VectorXd> rows_;
 };
 
-/// Rows of velocities over the coordinates that joints and what sticks move.
+/// Rows of velocities over the coordinates that joints and sticking measures move.
 class MotionRows
 {
 public:
@@ -61,7 +61,7 @@ public:
     return row;
   }
 
-  /// What ideal joints prescribe.
+  /// Motions prescribed by ideal joints.
   Span of_joints(const LocalState &state) const
   {
     Span            span;
@@ -102,11 +102,10 @@ private:
 } // namespace
 
 /**
- * Joints that stick may hold one and the same motion: the first one holds it.  Others that it stops are marked, so that
- * nothing looks at their guards: they keep sliding friction, or (at a start at rest) have none.  Where joints alone
- * prescribe the motion, no friction can stick, in a joint or elsewhere: what comes to rest slides on the other way.
- *
- * Source: docs/theory/contact.md (6).
+ * Several sticking joints may constrain the same motion: the first one sticks.  Others that it stops are marked, so
+ * that their guards are ignored: they keep sliding friction, or (at a start at rest) have none.  If joints alone
+ * prescribe the motion, no friction can stick, in a joint or elsewhere: an element that comes to rest slides in the
+ * other direction.  Source: docs/theory/contact.md (6).
  */
 void MachineParts::find_stopped(const LocalState &state)
 {
@@ -117,10 +116,10 @@ void MachineParts::find_stopped(const LocalState &state)
     return;
   const MotionRows rows(*this);
   Span             span    = rows.of_joints(state);
-  constexpr int    forward = 0, backward = 1; // Guards of what sticks: it lets go.
+  constexpr int    forward = 0, backward = 1; // Guards of a sticking element: it starts to slip.
   const auto       slide_on = [&](const PlacedElement &part, double came)
   { part.branches->transition(came > 0. ? backward : forward, part.motion(state, by_history), history_of(part)); };
-  // Near a dead point joints alone stop a motion, and holding it would take any force.
+  // Near a dead point joints alone stop a motion, and sticking would require an arbitrary force.
   const auto by_joints = [joints_alone = span](const Eigen::VectorXd &own) { return joints_alone.contains(own, 1e-3); };
   for (const PlacedElement &part : placed)
     if (part.stop < 0 && part.sticks(history_of(part), rate))
@@ -131,7 +130,7 @@ void MachineParts::find_stopped(const LocalState &state)
       else
         span.add(own);
     }
-  for (const bool before : {true, false}) // what held before goes on holding
+  for (const bool before : {true, false}) // elements that stuck before continue to stick
     for (PlacedElement &part : placed)
     {
       if (part.stop < 0 || part.holds != before || !part.sticks(history_of(part), rate))
@@ -152,9 +151,9 @@ void MachineParts::find_stopped(const LocalState &state)
 }
 
 /**
- * Rates of measures whose directions are combinations of those that are held, w = W_H c: w . q' = c . rates.  The
- * motion has them but for what an iteration leaves, whose sign must not throw a guard.  What would come to stick too is
- * left out: how such elements share the force is not defined, which the step tells.
+ * Rates of measures whose directions are combinations of sticking ones, w = W_H c: w . q' = c . rates.  The motion has
+ * these rates up to the residual of an iteration, whose sign must not trigger a guard.  Elements that would start to
+ * stick too are omitted: how they would share the force is undefined, which the step reports.
  */
 void MachineParts::find_held_too()
 {

@@ -12,7 +12,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Carries the motion of a signal into u, so that it is known wherever events are looked for; acts with no force.
+/// Copies the motion of a signal into u, so that it is available for event location; exerts no force.
 class Watch : public mechanism::ForceLaw
 {
 public:
@@ -38,7 +38,7 @@ private:
 
 } // namespace
 
-/// @throws std::invalid_argument with the nearest name, or for a signal that no event can be looked for in
+/// @throws std::invalid_argument with the most similar name, or for a signal that does not allow event location
 Signal MachineParts::watched_signal(const Switch &request) const
 {
   try
@@ -106,7 +106,7 @@ enum Slot
 {
   phase_slot,
   due_slot,
-  side_slot, ///< -1: the signal lies below the level, or is taken to, until it rises above; 1: above; 0: not known yet
+  side_slot, ///< -1: the signal is below the level, or treated so, until it rises above; 1: above; 0: not known yet
   n_slots
 };
 } // namespace
@@ -144,8 +144,8 @@ void MachineParts::start_switches(const LocalState *state)
   }
 }
 
-/// Begins to watch.  A crossing in either direction is one from the side on which the signal is: where that is not
-/// known, or it stands at the level itself, the next accepted instant tells.
+/// Arms the switch.  A crossing in either direction starts from the present side of the signal; if this is unknown, or
+/// the signal is exactly at the level, the next accepted instant decides.
 /// @param state  null: not known
 void MachineParts::watch(const PlacedSwitch &own, const LocalState *state)
 {
@@ -160,7 +160,7 @@ void MachineParts::watch(const PlacedSwitch &own, const LocalState *state)
   side              = past < 0. ? -1. : past > 0. ? 1. : 0.;
 }
 
-/// The signal follows from forces that no law tells, but the equations of the step: at a start they are not known yet.
+/// Whether the signal follows from forces that follow from the step's equations, not from a law: unknown at a start.
 bool MachineParts::tells_found_force(const PlacedSwitch &own) const
 {
   double      rate = 0.;
@@ -211,7 +211,7 @@ double MachineParts::switch_guard(const PlacedSwitch &own, const LocalState &sta
     return state.t - history[own.history + due_slot];
   const double side = history[own.history + side_slot];
   if (phase(own) == SwitchPhase::watches && side == 0.)
-    return -1.; // not past what rises
+    return -1.; // a rising one is not past it
   const double past = watched_value(own, state) - own.request.level;
   if (phase(own) == SwitchPhase::watches)
     return past;
@@ -220,7 +220,7 @@ double MachineParts::switch_guard(const PlacedSwitch &own, const LocalState &sta
   return past - side * own.request.hysteresis;
 }
 
-/// Passes what it waited for: the crossing, the delay, the way back.
+/// Executes the event of the switch: crossing, end of the delay, or return.
 void MachineParts::throw_switch(int index, const LocalState &state)
 {
   const PlacedSwitch &own  = switches[index];
@@ -256,7 +256,7 @@ void MachineParts::give_orders(int index, const LocalState &state)
   next                         = double(own.request.repeat ? SwitchPhase::returns : SwitchPhase::rests);
   if (own.request.repeat && own.request.crossing == SwitchCrossing::either && own.request.hysteresis == 0.)
   {
-    if (at_level) // rounding must not tell on which side it is
+    if (at_level) // rounding must not decide the side
       next = double(SwitchPhase::watches), side = -side;
     else
       watch(own, &state);
@@ -269,7 +269,7 @@ void MachineParts::give_orders(int index, const LocalState &state)
     {
       target.commands->command(given.order, target.motion(state, by_history), history_of(target));
     }
-    catch (const std::domain_error &beyond) // it has no law that goes on so
+    catch (const std::domain_error &beyond) // the law cannot be continued
     {
       std::ostringstream message;
       message << "at t = " << state.t << " s, switch \"" << own.request.name << "\" tells \"" << given.element

@@ -85,7 +85,7 @@ bool MachineLinear::dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen
   C = sparse->stiffness();
   return true;
 }
-/// Not those of an unreduced frame: its factor is made once per step size and kept.
+/// Not for an unreduced frame, whose factor is computed once per step size and stored.
 bool MachineLinear::sparse_matrices(Eigen::SparseMatrix<double> &M, Eigen::SparseMatrix<double> &B,
                                     Eigen::SparseMatrix<double> &C) const
 {
@@ -213,7 +213,7 @@ void MachineEvents::transition(int i, const LocalState &state)
   {
     part.branches->transition(active.index, part.motion(state, parts_.by_history), parts_.history_of(part));
   }
-  catch (const std::domain_error &beyond) // the element has no law that goes on from here
+  catch (const std::domain_error &beyond) // the element has no law that can be continued
   {
     std::ostringstream message;
     message << "at t = " << state.t << " s, \"" << parts_.elements[active.element].name << "\": " << beyond.what();

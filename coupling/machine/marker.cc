@@ -12,8 +12,8 @@ namespace gestell::coupling
 namespace
 {
 
-/// Weights that cancel leave nothing: along the axis of a rotor in a tilted plane, a_d - a_d (a.a) is 1e-17, and a
-/// joint across its plane would take that for a motion.
+/// a + sign b without weights that cancel: along the axis of a rotor in a tilted plane, a_d - a_d (a.a) is 1e-17, which
+/// a joint across its plane would treat as a motion.
 Measure combine(const Measure &a, const Measure &b, double sign)
 {
   std::map<int, double> sum(a.begin(), a.end());
@@ -22,8 +22,8 @@ Measure combine(const Measure &a, const Measure &b, double sign)
     double      &own   = sum[coordinate];
     const double terms = std::max(std::abs(own), std::abs(weight));
     own += sign * weight;
-    // Of the larger of two terms: what rounding leaves of them where they cancel. Each is a product of components of
-    // unit vectors, 2 epsilon wrong each, or a sum of three such.
+    // Relative to the larger of two terms: their rounding error if they cancel. Each is a product of components of unit
+    // vectors with an error of 2 epsilon each, or a sum of three such products.
     constexpr double rounding = 16. * std::numeric_limits<double>::epsilon();
     if (std::abs(own) <= rounding * terms)
       own = 0.;

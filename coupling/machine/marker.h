@@ -17,17 +17,17 @@ Measure operator+(const Measure &a, const Measure &b);
 Measure operator-(const Measure &a, const Measure &b);
 Measure operator*(double s, const Measure &a);
 
-/// A place on a body, on the frame or on the ground, by its small motion: translation [m] and rotation [rad] in global
-/// x, y, z.  Joints, forces and sensors are written against markers, so each works between any two partners.
+/// A point on a body, on the frame or on the ground, with its small motion: translation [m] and rotation [rad] in
+/// global x, y, z.  Joints, forces and sensors use markers, so that each can connect any two objects.
 struct Marker
 {
   std::string            name;
   std::array<Measure, 3> translation;
   std::array<Measure, 3> rotation;
-  bool                   turns_freely = false; ///< in space, so that no measure tells its rotation
+  bool                   turns_freely = false; ///< free spatial body: no measure gives its rotation
 
-  Measure along(const Vector3 &direction) const; ///< d . translation, d made a unit vector
-  /// a . rotation, a made a unit vector.  @throws std::invalid_argument if it turns freely
+  Measure along(const Vector3 &direction) const; ///< d . translation, with d normalised to a unit vector
+  /// a . rotation, with a normalised to a unit vector.  @throws std::invalid_argument if turns_freely
   Measure about(const Vector3 &axis) const;
 };
 

@@ -6,7 +6,7 @@ namespace gestell::coupling
 {
 
 /**
- * Modes in place of coordinates (5.5.3/8-10): q = V p with m columns, m << n, of
+ * Modal coordinates (5.5.3/8-10): q = V p with m columns, m << n, of the modes
  *
  *     (K - omega^2 M) v = 0,     V^T M V = E.
  */

@@ -123,9 +123,9 @@ SpectrumLine SparseBase::line_of(double omega, const VectorXd &mode) const
 
 std::vector<SpectrumLine> SparseBase::spectrum() const
 {
-  if (C_.nonZeros() == 0) // bodies that nothing but joints and elements hold
+  if (C_.nonZeros() == 0) // bodies constrained only by joints and elements
     return std::vector<SpectrumLine>(size(), SpectrumLine{0., 0.});
-  constexpr int dense_limit  = 600; // coordinates of which a dense problem takes less than a second
+  constexpr int dense_limit  = 600; // limit for a dense problem that takes less than a second
   const bool    dense        = size() <= dense_limit;
   constexpr int lowest_lines = 20; // of larger ones: those that loads of a machine reach
   const auto    modes        = dense ? dense_modes(MatrixXd(C_), MatrixXd(M_)) : sparse_modes(C_, M_, lowest_lines);

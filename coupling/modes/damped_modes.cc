@@ -17,7 +17,7 @@ namespace
 
 using Complex = std::complex<double>;
 
-/// omega^2, negative for a motion that is driven away.
+/// omega^2, negative for an unstable mode.
 Eigen::VectorXd squares(const DenseModes &modes)
 {
   return modes.omega.cwiseAbs2() - modes.growth.cwiseAbs2();
@@ -51,21 +51,21 @@ private:
   std::vector<Eigen::Index> root_;
 };
 
-/// What the coupling with another mode does to s, in units of what may be left out.
+/// Effect of the coupling with another mode on s, relative to the tolerance.
 struct Share
 {
   double       amount;
   Eigen::Index other;
 };
 
-/// Both roots of s^2 + b s + square, the vibrating one once.
+/// Both roots of s^2 + b s + square.
 std::array<Complex, 2> roots(double b, double square)
 {
   const Complex root = std::sqrt(Complex(0.25 * b * b - square));
   return {-0.5 * b + root, -0.5 * b - root};
 }
 
-/// Joins mode j with those whose coupling may not be left out.
+/// Joins mode j with the modes to which its coupling cannot be neglected.
 void join_coupled(Eigen::Index j, const Eigen::MatrixXd &B, const Eigen::VectorXd &square,
                   const CouplingTolerance &tolerance, std::vector<Share> &shares, Groups &groups)
 {
@@ -92,7 +92,7 @@ void join_coupled(Eigen::Index j, const Eigen::MatrixXd &B, const Eigen::VectorX
       groups.join(j, share.other);
 }
 
-/// s of one mode alone.
+/// Adds s of a single mode.
 void add_single(const DenseModes &modes, const Eigen::MatrixXd &B, Eigen::Index j, std::vector<DampedMode> &result)
 {
   const double omega = modes.omega[j], zeta = 0.5 * B(j, j) / omega;
@@ -134,7 +134,7 @@ void require_finite_damping(const DenseModes &modes, const Eigen::MatrixXd &B)
         "damped_modes: the damping of a mode is not finite; a damper is far too large for a mass: check their units");
 }
 
-/// By |s|.
+/// Sorts by |s|.
 void sort_by_size(std::vector<DampedMode> &modes)
 {
   std::sort(modes.begin(), modes.end(),
@@ -154,7 +154,7 @@ Eigen::Index take_nearest(const DenseModes &modes, double omega, std::vector<cha
 
 } // namespace
 
-/// In the state (Omega y, y'), as large as the highest frequency.
+/// Roots of the damped system, from the state (Omega y, y'), whose entries are as large as the highest frequency.
 Eigen::VectorXcd damped_roots(const DenseModes &modes, const Eigen::MatrixXd &C, const Eigen::MatrixXd &B)
 {
   require_finite_damping(modes, B);

@@ -8,7 +8,7 @@
 namespace gestell::coupling
 {
 
-/// Damping ratios below it are rounding: of B and C, sums of terms rounded to 1e-16.
+/// Damping ratios below this are rounding: B and C are sums of terms rounded to 1e-16.
 constexpr double rounding_of_ratio = 1e-12;
 
 /// A vibrating mode of the damped machine: omega = |s|, zeta = -Re s/|s|, and the undamped mode it is nearest to.
@@ -43,8 +43,8 @@ std::vector<DampedMode> damped_modes(const DenseModes &modes, const Eigen::Matri
                                      const CouplingTolerance &tolerance);
 
 /**
- * The same with follower forces, all modes together: B and C are by the dual basis of circulatory_modes()
- * and not symmetric, C in place of diag(omega^2).  A flutter has zeta < 0.
+ * The same with follower forces, all modes together: B and C refer to the dual basis of circulatory_modes() and are not
+ * symmetric, with C in place of diag(omega^2).  A flutter has zeta < 0.
  */
 std::vector<DampedMode> all_damped_modes(const DenseModes &modes, const Eigen::MatrixXd &C, const Eigen::MatrixXd &B);
 /// All s of such a machine [2 p].

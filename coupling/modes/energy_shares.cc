@@ -54,7 +54,7 @@ bool is_open(const std::vector<std::string> &open, const std::string &name)
   return std::find(open.begin(), open.end(), name) != open.end();
 }
 
-/// Of every element, W K W^T as it is engaged, or open, at q.
+/// Adds W K W^T of every element, engaged or open at q.
 void add_elements(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
                   const Eigen::MatrixXd &V, NamedRows &strain)
 {
@@ -97,7 +97,7 @@ NamedRows strain_of(const Machine &machine, const Eigen::VectorXd &q, const std:
   return strain;
 }
 
-/// Of the frame's coordinates and, with lags, of those of each body.
+/// Kinetic energies of the frame's coordinates and of those of each body, with lags.
 NamedRows kinetic_of(const Machine &machine, const Eigen::MatrixXd &V)
 {
   const MachineModel   &model = machine.model();
@@ -124,13 +124,13 @@ Eigen::MatrixXd stacked(const std::vector<Eigen::RowVectorXd> &rows, Eigen::Inde
 
 constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
 
-/// Its energies grow or fall while it vibrates, and its springs and masses have them at different times.
+/// Whether the mode flutters: its energy changes while it vibrates, springs and masses store it at different times.
 bool flutters(const Mode &mode)
 {
   return mode.frequency_hz > 0. && mode.growth != 0.;
 }
 
-/// omega^2 [modes] with the sign of a motion that vibrates or grows; nan of one that flutters.
+/// omega^2 [modes] with the sign for vibration or growth; nan for flutter.
 Eigen::RowVectorXd stiffnesses(const std::vector<Mode> &modes)
 {
   Eigen::RowVectorXd result(Eigen::Index(modes.size()));

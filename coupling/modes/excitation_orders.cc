@@ -18,7 +18,7 @@ bool crosses(const Point &a, const Point &b)
   return a.distance * b.distance < 0.;
 }
 
-/// Takes the points of one line, in their order, into stretches.
+/// Collects the points of one line, in their order, into stretches.
 class Stretches
 {
 public:

@@ -25,8 +25,8 @@ struct Geometric
   bool            circulatory = false; ///< K is not symmetric
 };
 
-/// Geometric stiffness of the forces that act as the machine moves on from rest.  It falls to zero where these are not
-/// found: a run that cannot start says so itself.
+/// Geometric stiffness of the forces when the machine starts from rest; zero if these cannot be computed, since a run
+/// reports a failed start itself.
 Geometric geometric_at_rest(const Machine &machine, const InitialState &start, LocalState &local)
 {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
@@ -46,7 +46,7 @@ Geometric geometric_at_rest(const Machine &machine, const InitialState &start, L
   return {circulatory ? K : symmetric(K), circulatory};
 }
 
-/// The machine linearised, in free motions; C with geometric stiffness.
+/// The linearised machine in free motions; C with geometric stiffness.
 struct Whole
 {
   Eigen::MatrixXd M, B, C;

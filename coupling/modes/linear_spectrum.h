@@ -10,25 +10,25 @@ namespace gestell::coupling
 /// The linear machine of a mode.
 enum class ModeOrigin
 {
-  base,  ///< frame and bodies, with what elements are while they are open
+  base,  ///< frame and bodies, with elements in their open branch
   closed ///< with every element in the stiffest branch of its law, at the start configuration
 };
 
 /**
- * The machine linearised at rest in the configuration of the start, in its undamped modes V, V^T M V = E:
+ * The machine linearised at rest in the initial configuration, in its undamped modes V, V^T M V = E:
  *
  *     y'' + B y' + diag(omega^2) y = 0,     q = Z V y,     B = V^T Z^T B Z V [p x p]
  *
- * where Z spans the motions that joints leave free; geometric stiffness of joints and elements is part of C.  With
- * follower forces it is not symmetric: V are those of circulatory_modes(), B and C [p x p] are by the dual basis, and C
- * takes the place of diag(omega^2).
+ * where Z spans the motions that joints allow; geometric stiffness of joints and elements is part of C.  With follower
+ * forces it is not symmetric: V are those of circulatory_modes(), B and C [p x p] refer to the dual basis, and C
+ * replaces diag(omega^2).
  */
 struct LinearMachine
 {
   ModeOrigin      origin;
   DenseModes      modes;
   Eigen::MatrixXd B;
-  Eigen::VectorXd contact_omega; ///< [p] rad/s, sqrt(v^T K v): what the elements alone contribute
+  Eigen::VectorXd contact_omega; ///< [p] rad/s, sqrt(v^T K v): contribution of the elements alone
   Eigen::MatrixXd C;             ///< empty: diag(omega^2)
 };
 
@@ -36,7 +36,7 @@ struct LinearMachine
 struct LargeMode
 {
   ModeOrigin   origin;
-  int          number; ///< from 1, by frequency, those that do not vibrate counted as well
+  int          number; ///< from 1, by frequency; modes that do not vibrate are counted too
   SpectrumLine line;
   bool         bound = false; ///< represents all modes up to its frequency, not known individually
 };
@@ -53,10 +53,10 @@ struct LinearSpectrum
   std::vector<LargeMode>     large;
 };
 
-/// @throws std::invalid_argument as dense_modes()
+/// @throws std::invalid_argument as dense_modes() does
 LinearSpectrum linear_spectrum(const Machine &machine, const InitialState &start);
 
-/// Machines with up to so many coordinates have dense matrices.
+/// Whether a machine has too many coordinates for dense matrices.
 bool is_large(const Machine &machine);
 
 } // namespace gestell::coupling

@@ -45,7 +45,7 @@ VectorXcd poles(const MatrixXd &y)
   const MatrixXd                       Y = hankel(y);
   const coupling::SymmetricEigenSolver squares(Y.transpose() * Y);
   const VectorXd   squared    = squares.eigenvalues().reverse(); // of the singular values, largest first
-  constexpr double weakest    = 1e-4; // singular value beside the largest: those kept lose eps / weakest^2 = 2e-8
+  constexpr double weakest    = 1e-4; // singular value / the largest one: retained ones lose eps / weakest^2 = 2e-8
   constexpr Index  most_poles = 40;   // of twenty modes
   Index            r          = 0;
   while (r < std::min(squared.size() - 1, most_poles) && squared[r] > weakest * weakest * squared[0])

@@ -13,7 +13,7 @@ struct DampedOscillation
 {
   std::complex<double> s;             ///< [1/s], Im s > 0
   Eigen::VectorXcd     amplitudes;    ///< by signal, at the first sample
-  double               strength = 0.; ///< of the amplitudes, each beside the range of its signal
+  double               strength = 0.; ///< of the amplitudes, each relative to the range of its signal
 
   double frequency_hz() const;  ///< damped
   double damping_ratio() const; ///< -Re s / |s|
@@ -31,9 +31,9 @@ struct PencilFit
  *     Y = [Y_1; Y_2; ...],  Y_s[i, j] = y_s(t_{i+j}) [(n - L) x (L + 1)],   Y ~ U S V^T of rank r,
  *     z = eigenvalues of V_first^+ V_last,     s = log(z)/h,
  *
- * V_first and V_last being V without its last and first row, L = n/2.  r is where singular values fall below 1e-4 of
- * the largest, so that weak oscillations and a constant have separate poles and do not disturb the strong ones; the
- * `most` oscillations with the largest amplitudes, relative to the range of each signal, are returned.
+ * with V_first and V_last equal to V without its last and first row, L = n/2.  r is the number of singular values above
+ * 1e-4 of the largest, so that weak oscillations and a constant have separate poles and do not disturb the strong ones;
+ * the `most` oscillations with the largest amplitudes, relative to the range of each signal, are returned.
  *
  * @param samples  [n x signals] at equal times, n at least 16
  * @param h        [s] between samples

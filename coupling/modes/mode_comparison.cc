@@ -11,7 +11,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// 1 / sum_j A_kj^2; 0 of a measure that does not move.
+/// 1 / sum_j A_kj^2; 0 for a measure that does not move.
 Eigen::VectorXd apparent_masses(const Eigen::MatrixXd &A, const Eigen::MatrixXd &other)
 {
   Eigen::VectorXd masses(A.rows());
@@ -35,7 +35,7 @@ double quotient(double x, double y)
   return y > 0. ? x / y : 0.;
 }
 
-/// One column for each row of `value` [a x b], none twice, best together; -1 where a > b leaves none.
+/// For each row of `value` [a x b] one column, no column twice, with the largest sum; -1 for rows without one.
 std::vector<int> partners(const Eigen::MatrixXd &value)
 {
   if (value.rows() <= value.cols())

@@ -7,7 +7,7 @@
 namespace gestell::coupling
 {
 
-/// Two modes that are taken to be the same one.
+/// Two matching modes.
 struct ModePair
 {
   int    a = -1, b = -1;    ///< columns
@@ -16,24 +16,23 @@ struct ModePair
 };
 
 /**
- * Modes of two machines by what both tell of them: k measures (displacements, angles) of mass-normalised shapes,
- * A [k x a], B [k x b].  The apparent mass of a measure in the modes of A is that of its sum over these,
+ * Comparison of the modes of two machines in k common measures (displacements, angles) of mass-normalised shapes, A [k
+ * x a], B [k x b].  The apparent mass of a measure follows from the sum over the modes of A,
  *
  *     m_A,k = 1 / sum_j A_kj^2,     m_k = sqrt(m_A,k m_B,k),
  *
- * kg or kg m^2, so that metres and radians weigh as they do in the kinetic energy; with all modes and coordinates of
+ * in kg or kg m^2, so that metres and radians have the weights of the kinetic energy; with all modes and coordinates of
  * a diagonal M these are its masses.  Then
  *
  *     MAC_ij = (sum_k m_k A_ki B_kj)^2 / (sum_k m_k A_ki^2  sum_k m_k B_kj^2),     seen_i = sum_k m_A,k A_ki^2.
  *
- * With all modes, and measures that are the coordinates of a diagonal M, `seen` is the part of a mode's kinetic energy
- * that the measures tell.  Otherwise it is a weight, not a part: modes that are left out make masses too large.  Always
+ * With all modes, and measures that are the coordinates of a diagonal M, `seen` is the share of a mode's kinetic energy
+ * in the measures.  Otherwise it is a weight, not a share: omitted modes make the masses too large.  In any case
  *
  *     sum_i seen_i = number of measures that move,     0 <= seen_i <= that number,
  *
- * so that it exceeds 1 where modes are fewer than measures; a single mode seen by k measures has k.  A mode of which
- * they tell less than `least_seen` has no partner.  Partners are chosen, best for all pairs together, by MAC_ij seen_i
- * seen_j.
+ * so that it exceeds 1 if there are fewer modes than measures; a single mode in k measures has k.  A mode below
+ * `least_seen` is not matched.  The matching maximises the sum of MAC_ij seen_i seen_j over all pairs.
  *
  * Source: docs/theory/modes_along.md (7), (8).
  */
@@ -45,10 +44,10 @@ struct ModeComparison
   std::vector<ModePair> pairs;          ///< by a, ascending
 };
 
-/// smallest share of a mode in the measured points by which it is compared; assurance from which two are one mode
+/// Smallest observability of a mode for a comparison; MAC above which two modes are the same.
 constexpr double least_seen = 0.05, least_assurance = 0.5;
 
-/// A measure that moves in no mode of either, or in those of one alone, does not count.
+/// A measure that moves in no mode, or only in the modes of one machine, is ignored.
 ModeComparison compare_modes(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B);
 
 } // namespace gestell::coupling

@@ -23,13 +23,13 @@ Eigen::MatrixXd shapes(const std::vector<Mode> &modes, std::size_t count)
 
 bool same(const Mode &a, const Mode &b)
 {
-  // relative difference up to which shapes are any mixture: the root of rounding
+  // relative difference of frequencies below which shapes are an arbitrary mixture: the root of rounding
   constexpr double same_frequency = 1e-8;
   return std::abs(a.frequency_hz - b.frequency_hz) <= same_frequency * std::max(a.frequency_hz, b.frequency_hz);
 }
 
-/// Turns the shapes of modes [begin, end) of one frequency towards those before: V Q with the orthogonal Q that makes
-/// |V Q - V_before| least, where V_before are as many shapes as hold most of them.
+/// Rotates the shapes of modes [begin, end) of one frequency towards the previous ones: V Q with the orthogonal Q that
+/// minimises |V Q - V_before|, where V_before are as many shapes as contain most of them.
 void turn_towards(const Eigen::MatrixXd &before, const Eigen::MatrixXd &M, std::vector<Mode> &modes, std::size_t begin,
                   std::size_t end)
 {
@@ -65,7 +65,7 @@ void turn_mixtures(const Eigen::MatrixXd &before, const Eigen::MatrixXd &M, std:
   }
 }
 
-/// Takes the modes of `next`, ascending, into the order of the lines before.
+/// Sorts the modes of `next`, ascending, in the order of the lines of `before`.
 void assign(const TrackedModes &before, TrackedModes &next, const Eigen::MatrixXd &M, std::size_t lines)
 {
   const Eigen::MatrixXd V = shapes(before.modes, lines);

@@ -19,7 +19,7 @@ namespace gestell::coupling
 
 namespace
 {
-/// @throws std::invalid_argument where a mass is so small, or a damper so large beside it, that the state overflows.
+/// @throws std::invalid_argument if a mass is so small, or its damper so large, that the state overflows.
 GeneralEigenSolver solve_state(const Eigen::MatrixXd &state, const Eigen::VectorXd &omega)
 {
   if (!state.allFinite()) // the solver would leave its arrays
@@ -39,8 +39,8 @@ struct InModes
   Eigen::MatrixXd stiffness, damping;
 };
 
-/// How well a solution s, of which a mode has the share `own`, fits the mode; of a flutter and its partner, which have
-/// the same shares, the one at the nearer s.
+/// How well a solution s, in which a mode has the share `own`, matches the mode. A flutter and its counterpart have the
+/// same shares; the one with the closer s matches better.
 double fit(const Mode &mode, const std::complex<double> &s, double own)
 {
   if (mode.growth == 0.)
@@ -87,7 +87,7 @@ void add_damping(const DenseModes &modes, const InModes &in_modes, std::vector<M
   }
 }
 
-/// What add_damping() finds without dampers.
+/// Result of add_damping() without dampers.
 void leave_undamped(std::vector<Mode> &result)
 {
   for (Mode &mode : result)
@@ -112,7 +112,7 @@ struct ModalProblem
 std::vector<Mode> modes_of(const ModalProblem &problem, int n_modes)
 {
   const auto &[M, B, C, loads, damped, n_rigid, circulatory] = problem;
-  if (M.rows() == 0) // everything is held
+  if (M.rows() == 0) // everything is fixed
     return {};
   CirculatoryModes found;
   if (circulatory)
@@ -172,7 +172,7 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
     modes[j].refined_hz = refined_hz(*frame, Eigen::Index(j));
   for (std::size_t j = 0; j < std::min(modes.size(), frame->facts.free_motions.size()); ++j)
   {
-    modes[j].frequency_hz = modes[j].damped_frequency_hz = modes[j].growth = 0.; // what is left is rounding
+    modes[j].frequency_hz = modes[j].damped_frequency_hz = modes[j].growth = 0.; // only rounding remains
     modes[j].damping_ratio                                                 = std::numeric_limits<double>::quiet_NaN();
   }
   return modes;
@@ -181,12 +181,12 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
 namespace
 {
 
-/// M, B, K [p x p] of the motions Z [n x p] that are left free; with dampers and stiffness engaged.
+/// M, B, K [p x p] of the free motions Z [n x p], with engaged dampers and stiffness.
 struct Linear
 {
   Eigen::MatrixXd M, B, K, Z;
   bool            circulatory = false; ///< K is not symmetric
-  LocalState      local{};             ///< of the motion at rest, with multipliers
+  LocalState      local{};             ///< the motion at rest, with multipliers
 };
 
 /// A motion whose stiffness is what rounding leaves of the forces that balance in it has none: a linkage whose weights
@@ -204,7 +204,7 @@ void settle_free_motions(const Eigen::VectorXd &terms, std::vector<Mode> &modes)
   }
 }
 
-/// Sums of masses and forces that overflow are no matrices.
+/// Refuses matrices in which sums of masses or forces overflow.
 void require_finite(const Machine &machine, const Linear &linear)
 {
   const auto check = [&](const Eigen::MatrixXd &A, const char *what, const char *reason)
@@ -279,21 +279,21 @@ std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd
 namespace
 {
 
-/// What drives and controllers add to the structure.
+/// Contributions of drives and controllers to the structure.
 struct Drives
 {
   bool             any = false;
-  std::vector<int> lags; ///< virtual coordinates whose elements act; those of others only fade with their own constants
+  std::vector<int> lags; ///< virtual coordinates of active elements; others only decay with their own constants
 };
 
-/// Of a motion that begins here.
+/// Whether an element sticks in a motion that starts here.
 bool sticks(const mechanism::Element &element, const mechanism::LocalMotion &motion)
 {
   double rate;
   return element.branches() && element.branches()->holds(started(element, motion).data(), rate);
 }
 
-/// Adds -dp/du and -dp/dv [n x n] of the drives, which are no structure, as they are at a motion.
+/// Adds -dp/du and -dp/dv [n x n] of the drives, which are not structure, at a motion.
 Drives add_drives(const Machine &machine, const LocalState &local, Eigen::MatrixXd &K, Eigen::MatrixXd &B)
 {
   const Eigen::VectorXd structure = acting_measures(machine, local.u, Acting::structure);
@@ -307,7 +307,7 @@ Drives add_drives(const Machine &machine, const LocalState &local, Eigen::Matrix
     const int                 k       = element.n_measures();
     mechanism::LocalMotion    motion{local.t, local.u.data() + first, local.v.data() + first, local.a.data() + first};
     const bool drives = structure[first] == 0. && placement.joint < 0 && element.work() == mechanism::Work::input;
-    if (drives && !sticks(element, motion)) // what sticks gives no way
+    if (drives && !sticks(element, motion)) // a sticking drive is rigid
     {
       Eigen::VectorXd p(k);
       Eigen::MatrixXd du(k, k), dv(k, k);
@@ -327,7 +327,7 @@ Drives add_drives(const Machine &machine, const LocalState &local, Eigen::Matrix
   return found;
 }
 
-/// Some element feeds the machine, or has a virtual coordinate: others add nothing to its modes.
+/// Whether an element drives the machine or has a virtual coordinate; only these affect its modes.
 bool may_have_drives(const Machine &machine)
 {
   const auto &elements = machine.model().elements();
@@ -370,7 +370,7 @@ Eigen::MatrixXd state_matrix(const Linear &linear, const Eigen::VectorXd &omega,
   return A;
 }
 
-/// The coordinate that a solution (y', x) moves most: by its kinetic energy, or without any the lag.
+/// The coordinate that a solution (y', x) moves most, by kinetic energy, or else the largest virtual coordinate.
 std::string moved_most(const Machine &machine, const std::vector<int> &lags, const Eigen::MatrixXd &M,
                        const Eigen::MatrixXd &V, const Eigen::VectorXcd &y_rate, const Eigen::VectorXcd &x)
 {
@@ -409,7 +409,7 @@ std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd 
   local.resize(machine);
   machine.gather(t, q, v, Eigen::VectorXd::Zero(machine.size()), local);
   const auto     &Z = linear.Z;
-  Eigen::MatrixXd K = Z.transpose() * linear.K * Z; // of the structure alone
+  Eigen::MatrixXd K = Z.transpose() * linear.K * Z; // of the structure only
   if (linear.circulatory)
     K = 0.5 * (K + K.transpose()).eval(); // a basis; what follows the motion is in the state
   const DenseModes modes = dense_modes(K, Z.transpose() * linear.M * Z);
@@ -429,7 +429,7 @@ std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd 
   const Eigen::VectorXcd s       = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
   const double           largest = s.size() > 0 ? s.cwiseAbs().maxCoeff() : 0.;
-  // A motion at rest is a double root; rounding parts it by the root of what it leaves in the matrix.
+  // A motion at rest is a double root; rounding splits it by the root of the error in the matrix.
   const double rest = 10. * std::sqrt(std::numeric_limits<double>::epsilon() * std::max(largest, slowest) * slowest);
   for (Eigen::Index k = 0; k < s.size(); ++k)
     if (std::abs(s[k]) > rest && s[k].imag() >= 0.)

@@ -14,11 +14,11 @@ namespace gestell::coupling
 struct Mode
 {
   double          frequency_hz = 0., damped_frequency_hz = 0.;
-  double          damping_ratio = 0.; ///< nan where the mode does not vibrate
+  double          damping_ratio = 0.; ///< nan if the mode does not vibrate
   Vector3         effective_mass{};   ///< [kg] x, y, z
-  double          growth = 0.;        ///< [1/s] of exp(growth t), undamped: leaves an unstable configuration
-  Eigen::VectorXd shape;              ///< undamped, mass normalised, in the coordinates it belongs to
-  double          refined_hz = std::numeric_limits<double>::quiet_NaN(); ///< of a reduced frame, see refined_hz()
+  double          growth = 0.;        ///< [1/s] of exp(growth t), undamped: an unstable configuration
+  Eigen::VectorXd shape;              ///< undamped, mass normalised, in the coordinates of its machine or frame
+  double          refined_hz = std::numeric_limits<double>::quiet_NaN(); ///< for a reduced frame, see refined_hz()
 };
 
 /// A motion exp(s t) of the machine with its dampers, drives and lags: one of each conjugate pair.
@@ -32,32 +32,32 @@ struct Pole
   double damping_ratio() const; ///< -Re s / |s|; negative: it grows
 };
 
-/// Frequency j of a reduced frame by one more step of inverse iteration [Hz], between that of the full frame and that
-/// of the model; nan where none is known or nothing is reduced.  docs/theory/reduction.md (14).
+/// Frequency j [Hz] of a reduced frame after one more step of inverse iteration, between that of the full frame and
+/// that of the model; nan if none is known or nothing is reduced.  docs/theory/reduction.md (14).
 double refined_hz(const ReducedFrame &frame, Eigen::Index j);
 
-/// Modes of the frame alone as it is supported, interface free; shapes in the frame's coordinates.  An unreduced frame
-/// gives its lowest n_modes.
+/// Modes of the supported frame alone, with free interface; shapes in the frame's coordinates.  For an unreduced frame
+/// the lowest n_modes.
 std::vector<Mode> frame_modes(const Machine &machine, int n_modes);
 
 enum class GeometricStiffness
 {
-  included, ///< of forces that turn with the motion: a load on a rope swings
+  included, ///< of forces that rotate with the motion, for example a load that swings on a rope
   left_out
 };
 
-/// How a machine is linearised.
+/// Options of a linearisation of the machine.
 struct Linearisation
 {
   std::vector<std::string>       open{}; ///< elements that are not engaged
   GeometricStiffness             geometric = GeometricStiffness::included;
-  std::vector<int>               fixed{};                     ///< coordinates at rest
-  Acting                         acting = Acting::everything; ///< whose forces are geometric stiffness
-  std::optional<Eigen::VectorXd> multipliers{};               ///< [n_c] of joints; none: as it moves on from rest
+  std::vector<int>               fixed{};                     ///< fixed coordinates
+  Acting                         acting = Acting::everything; ///< forces included in the geometric stiffness
+  std::optional<Eigen::VectorXd> multipliers{};               ///< [n_c] of joints; none: of a start from rest
   bool                           damping = true;              ///< false: undamped frequencies and shapes only
 };
 
-/// Multipliers [n_c] of the joints as the machine moves on from rest at q; `local` holds its motion there.
+/// Multipliers [n_c] of the joints when the machine starts from rest at q; `local` contains its motion there.
 /// @throws ConvergenceFailure
 Eigen::VectorXd multipliers_at_rest(const Machine &machine, const Eigen::VectorXd &q, LocalState &local);
 
@@ -66,10 +66,10 @@ Eigen::VectorXd multipliers_at_rest(const Machine &machine, const Eigen::VectorX
  *
  *     (Z^T K Z - omega^2 Z^T M Z) y = 0,     v = Z y,     v^T M v = 1,     K = C + K_engaged + K_geometric,
  *
- * where Z spans the motions that joints and fixed coordinates leave free.  Joints have to be closed at q.
+ * where Z spans the motions that joints and fixed coordinates allow.  Joints must be satisfied at q.
  *
  * Source: docs/theory/joints.md (6).
- * @throws std::invalid_argument for a name in `open` that no element has, and on an unreduced frame
+ * @throws std::invalid_argument for a name in `open` that no element has, and for an unreduced frame
  */
 std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation,
                                    int n_modes);
@@ -79,9 +79,9 @@ std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd
  *     y'' + V^T B_o V y' + V^T K_o V y = ...,     T x' + x = p(y, y', x),
  *
  * in its undamped modes V and the virtual coordinates x of drives and controllers.  Structural elements are engaged as
- * in K; drives (elements whose work is input, and that are no structure) enter with dp/du and dp/dv at that motion,
- * tools and friction do not act, nor do virtual coordinates of theirs.  Joints are taken as they stand.  Those at rest,
- * s = 0, are left out; the slowest comes first.  None if the machine has no drives: its modes tell all.
+ * in K; drives (elements whose work is input, and that are not structure) enter with dp/du and dp/dv at that motion;
+ * tools and friction, and their virtual coordinates, are switched off.  Joints are in their present state.  Poles s = 0
+ * are omitted; the slowest is first.  Empty if the machine has no drives: its modes are complete.
  *
  * Source: docs/theory/modes_along.md (6).
  */

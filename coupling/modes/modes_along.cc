@@ -93,7 +93,7 @@ private:
     next.state               = assembled(x, from);
     if (!has_joints(machine_))
       turn_along(x - from.modes.x, next.state);
-    if (!slides_) // sliders close the chains: one that is held cannot
+    if (!slides_) // sliders close the chains: a fixed one cannot
       close_chains(machine_, next.state.q);
     Linearisation how = options_.linearisation;
     how.damping       = damping;
@@ -116,7 +116,7 @@ private:
     double highest            = 0.;
     for (const Mode &mode : next.modes.modes)
       highest = std::max(highest, mode.frequency_hz);
-    constexpr double none = 1e-9; // frequency beside the highest one that rounding leaves of none
+    constexpr double none = 1e-9; // frequency relative to the highest one, below which it is rounding of zero
     for (Mode &mode : next.modes.modes)
       if (mode.frequency_hz < none * highest)
         mode.frequency_hz = 0.;
@@ -124,7 +124,7 @@ private:
     return next;
   }
 
-  /// With the frame undeformed.
+  /// The assembled state with the frame undeformed.
   InitialState relaxed(InitialState state, double x)
   {
     state.q.head(machine_.model().n_frame()).setZero();
@@ -134,7 +134,7 @@ private:
     return state;
   }
 
-  /// From the start to the first position, as the machine would be moved.
+  /// Moves the machine from its start to the first position in steps.
   Position walk_to_first(const InitialState &start)
   {
     Position last{start, {}};
@@ -150,7 +150,7 @@ private:
     }
     catch (const std::invalid_argument &)
     {
-      // what is in the way is told at the positions behind it
+      // an obstacle is reported at the positions after it
     }
     catch (const ConvergenceFailure &)
     {
@@ -159,7 +159,7 @@ private:
     return last;
   }
 
-  /// In steps that keep a linkage on its branch; where that way is barred, at once.
+  /// Assembles in steps, which keep a linkage on its branch, or directly if an obstacle prevents that.
   InitialState assembled(double x, const Position &from)
   {
     // [rad] of a step on the way to a position: 5 degrees, in which Newton's method follows joints
@@ -182,7 +182,7 @@ private:
     }
   }
 
-  /// Without joints nothing turns the other rotors: flywheel and crank go round together.
+  /// Without joints nothing rotates the other rotors with the crank: all rotate by the same angle.
   void turn_along(double angle, InitialState &state) const
   {
     const auto is_rotor = [](const Body &body) { return body.kind == BodyKind::rotor; };
@@ -203,7 +203,7 @@ private:
       return;
     TrackingOptions tracking;
     tracking.lines = options_.lines;
-    if (std::abs(next.modes.x - last.modes.x) > 1.5 * std::abs(step_)) // nothing lies between behind a gap
+    if (std::abs(next.modes.x - last.modes.x) > 1.5 * std::abs(step_)) // there is nothing between after a gap
       tracking.most_halving = 0;
     const TrackedModes before{last.modes.x, last.modes.modes, {}};
     TrackedModes       after{next.modes.x, next.modes.modes, {}};

@@ -18,7 +18,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Only the blocks of the joints: elements tell their stiffness by the derivatives of their forces.
+/// Only the blocks of the joints: the stiffness of elements follows from the derivatives of their forces.
 Eigen::MatrixXd stiffness_of_joints(const Machine &machine, const LocalState &local)
 {
   if (machine.joints().n_rows() == 0)
@@ -67,14 +67,14 @@ void for_contacts(const Machine &machine, const LocalState &local, const Look &l
   }
 }
 
-/// Names of the elements that may be open, by whether they are: between what acts always and what acts when they are
-/// closed, dp/du lies at the one end or nearer to the other.
+/// Sorts the elements that may be open: their dp/du is between those of the open and the closed branch, and closer to
+/// one of them.
 void tell_contacts(const Machine &machine, MachinePoint &at)
 {
   for_contacts(machine, at.point.local,
                [&](const Contact &contact)
                {
-                 // share of the stiffness of a closed element that tells it from an open one
+                 // share of the stiffness of a closed element that distinguishes it from an open one
                  constexpr double least_contact = 1e-6;
                  const bool       is_closed     = (contact.here - contact.open).cwiseProduct(contact.more).sum() >
                                         least_contact * contact.more.squaredNorm();
@@ -99,7 +99,7 @@ bool is_smooth(const Machine &machine, const LocalState &local, int measure, dou
     slopes[side] = (there[measure] - here[measure]) / way;
   }
   const double largest = std::max({std::abs(slopes[0]), std::abs(slopes[1]), std::abs(slope)});
-  // difference of two slopes, of the largest: far above their errors, far below what a contact makes
+  // difference of two slopes, relative to the largest: far above their errors, far below that of a contact
   constexpr double another_slope = 0.01;
   return std::abs(slopes[0] - slope) <= another_slope * largest &&
          std::abs(slopes[1] - slope) <= another_slope * largest;
@@ -162,7 +162,7 @@ Slope extrapolated_slope(const std::function<double(double)> &f, double first_st
 
 constexpr double first_way = 1e-4; ///< first step, of a large motion; of rates and accelerations ten and a hundred
                                    ///< times as large, with such a motion in a second
-constexpr double smooth = 1e-5;    ///< error of a slope beside the largest one of its kind that a kink leaves
+constexpr double smooth = 1e-5;    ///< error of a slope relative to the largest of its kind; above it is a kink
 
 /// Whether the slope of f jumps at 0: second differences over h fall with the step where f is smooth.
 bool has_kink(const std::function<double(double)> &f, double first_step)
@@ -170,7 +170,7 @@ bool has_kink(const std::function<double(double)> &f, double first_step)
   const auto       jump   = [&](double h) { return std::abs(f(h) - 2. * f(0.) + f(-h)) / h; };
   constexpr double finest = 256.; // first step over the last one, 2^8
   const double     small = first_step / finest, last = jump(small);
-  constexpr double no_jump = 1e-9; // second difference beside the values that rounding leaves
+  constexpr double no_jump = 1e-9; // second difference relative to the values, up to which it is rounding
   return last > 0.3 * jump(first_step) && last > no_jump * (std::abs(f(small)) + std::abs(f(-small))) / small;
 }
 
@@ -208,7 +208,7 @@ public:
       x[i]                      = there;
       weights[i]                = slope.value;
       largest                   = std::max(largest, std::abs(slope.value));
-      constexpr double rounding = 1e-12; // what it leaves of a value in quotients with the smallest step
+      constexpr double rounding = 1e-12; // relative error of values in quotients with the smallest step
       worst                     = std::max(worst, slope.error - rounding * std::abs(value()) / first_step);
     }
     if (kink || worst > smooth * largest)
@@ -246,7 +246,7 @@ void add_quantity(const Machine &machine, const Signal &signal, const MachinePoi
   answer.q += W * slopes.find(local.u, first, first_way, sizes);
   answer.v += W * slopes.find(local.v, first, 10. * first_way, sizes);
   answer.a += W * slopes.find(local.a, first, 100. * first_way, sizes);
-  // Quantities are linear in forces, of whatever size.
+  // Quantities are linear in forces of any size.
   answer.p      = slopes.find(local.p, first, first_way, Eigen::VectorXd::Ones(k));
   answer.lambda = slopes.find(local.lambda, 0, first_way, Eigen::VectorXd::Ones(local.lambda.size()));
 }
@@ -306,7 +306,7 @@ MachinePoint machine_point(Machine &machine, const InitialState &state)
   }
   catch (const std::invalid_argument &)
   {
-    // something has no mass: nothing is known of its acceleration
+    // a coordinate has no mass: its acceleration is unknown
   }
   if (start)
   {

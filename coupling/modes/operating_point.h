@@ -10,25 +10,25 @@
 namespace gestell::coupling
 {
 
-/// A machine at an instant of its motion, about which it is linear for small vibrations.
+/// A machine at an instant of its motion, linearised for small vibrations.
 struct MachinePoint
 {
   InitialState             state;
   Eigen::VectorXd          a; ///< q'' [n] of the motion; zero for massless coordinates
   OperatingPoint           point;
-  std::vector<std::string> closed, open; ///< elements with play that are in contact, and those that are not: names
-  std::vector<std::string> touching;     ///< those with a kink of the force at the point: about to touch
+  std::vector<std::string> closed, open; ///< names of elements with clearance, in contact and not in contact
+  std::vector<std::string> touching;     ///< elements whose force has a kink at the point: about to touch
 };
 
 /// The motion `state` with its forces, multipliers and accelerations; branches of the laws are the initial ones of a
-/// run from there, and stay set in the machine.
-/// @throws ConvergenceFailure if joints depend on each other there
+/// run from there, and remain set in the machine.
+/// @throws ConvergenceFailure if joints are redundant there
 MachinePoint machine_point(Machine &machine, const InitialState &state);
 
 /**
- * A signal linearised about a point.  Weights of coordinates and of linear elements are exact; quantities of
- * nonlinear elements are differentiated in their own measures, forces and multipliers by quotients that are
- * extrapolated to step zero, measures of position functions by their gradient.
+ * A signal linearised about a point.  Weights of coordinates and of linear elements are exact; quantities of nonlinear
+ * elements are differentiated in their measures, forces and multipliers by quotients extrapolated to zero step,
+ * measures of position functions by their gradient.
  *
  * @throws std::invalid_argument if a quantity is not smooth there
  */

@@ -59,13 +59,13 @@ AveragedSystem averaged(const Machine &machine, const VectorXd &q, const std::ve
 
 const char *const other_methods = "use method = \"craig-bampton\", which retains such coordinates";
 
-/// The angle of a body that turns, or -1.
+/// The angle of a rotating body, or -1.
 int angle_of(const Body &body)
 {
   return body.kind == BodyKind::rotor ? body.coordinate : body.kind == BodyKind::planar ? body.coordinate + 2 : -1;
 }
 
-/// A body that a drive turns, whose torque depends on the speed; empty: none.
+/// A body driven by a torque that depends on the speed; empty: none.
 std::string driven_body(const Machine &machine, std::string &drive)
 {
   const Eigen::Index n_u = machine.forces().directions().cols();
@@ -163,7 +163,7 @@ MatrixXd directions(const Machine &machine)
   return result;
 }
 
-/// What numbers of modes leave out of static deflections.
+/// Truncation error of static deflections for numbers of modes.
 class StaticShortfall
 {
 public:
@@ -178,7 +178,7 @@ public:
 
   Eigen::Index n_elements() const { return n_elements_; } ///< directions of elements, the first ones
 
-  /// Of the first 1, 2, ... modes, the largest share; of the directions of elements alone, or of loads, too.
+  /// The largest share for the first 1, 2, ... modes; for the directions of elements only, or also of loads.
   VectorXd of(const DenseModes &modes, bool elements_alone = false) const
   {
     const Eigen::Index n    = elements_alone ? n_elements_ : w_.cols();
@@ -210,7 +210,7 @@ DenseModes lowest(const AveragedSystem &system, int count)
   return {VectorXd(modes.omega.head(m)), MatrixXd(modes.V.leftCols(m)), VectorXd(modes.growth.head(m))};
 }
 
-/// How many modes the options ask for, of those found; more than these where they do not suffice.
+/// Number of modes requested by the options, from those computed; more if these do not suffice.
 class ModeCount
 {
 public:
@@ -233,8 +233,8 @@ public:
 
   int first() const { return options_.n_modes > 0 ? options_.n_modes : std::min(first_search, n_); }
 
-  /// @param requested  how many were searched for
-  /// @return 0: not known from these
+  /// @param requested  number of modes searched for.
+  /// @return 0: cannot be determined from these
   int of(const DenseModes &modes, int requested)
   {
     const int found = int(modes.omega.size());
@@ -249,7 +249,7 @@ public:
     return ended_ ? found : 0;
   }
 
-  bool        ended() const { return ended_; } ///< more would have been wanted
+  bool        ended() const { return ended_; } ///< more modes would have been required
   std::string rule() const
   {
     std::ostringstream text;
@@ -276,7 +276,7 @@ public:
   }
 
 private:
-  /// found + 1 where all that were found do not suffice.
+  /// The number found + 1 if these are not sufficient.
   int enough_for_statics(const DenseModes &modes) const
   {
     const VectorXd left  = shortfall_.of(modes, elements_alone_);
@@ -329,7 +329,7 @@ void tell(const SuperpositionOptions &options, const std::string &rule, Superpos
                            std::to_string(int(std::lround(100. * result.static_residual))) +
                            " % too small without the truncated modes; use more modes, or method = \"craig-bampton\", "
                            "whose statics are exact");
-  // of damping between two modes, worth a note: of weak damping it moves roots by its square, 1 %
+  // of damping between two modes, for a note: it moves roots by its square, 1 %
   constexpr double considerable_share = 0.1;
   if (options.diagonal_damping && result.coupling > considerable_share)
     result.notes.push_back("modal superposition: damping = \"diagonal\" ignores coupling of modes by up to " +
@@ -337,7 +337,7 @@ void tell(const SuperpositionOptions &options, const std::string &rule, Superpos
                            " % of their damping; damping = \"full\" includes it");
 }
 
-/// Notes loads above the highest mode kept, and forces of elements, whose frequencies are unknown.
+/// Adds notes on loads above the highest retained mode, and on forces of elements with unknown frequencies.
 void note_loads(const Machine &machine, const SuperpositionOptions &options, const ModeCount &rule,
                 Superposition &result)
 {

@@ -11,12 +11,12 @@ namespace gestell::coupling
 
 struct SuperpositionOptions
 {
-  int                      n_modes   = -1; ///< below zero: by `frequency`, the loads or `tolerance`
-  double                   frequency = 0.; ///< [Hz] up to which modes are retained; 0: four times that of the loads
-  double                   tolerance = 0.; ///< of static deflections; 0: 0.01 under forces whose frequency is not known
+  int                      n_modes   = -1; ///< below zero: chosen by `frequency`, the loads or `tolerance`
+  double                   frequency = 0.; ///< [Hz] upper limit of the retained modes; 0: four times that of the loads
+  double                   tolerance = 0.; ///< of static deflections; 0: 0.01 for forces of unknown frequency
   bool                     diagonal_damping = false; ///< couplings of modes are omitted
   std::vector<std::string> open{};                   ///< elements that the averaged system has open
-  std::string              place{};                  ///< heads messages: "portal.toml:60: reduction"
+  std::string              place{};                  ///< prefix of messages: "portal.toml:60: reduction"
 };
 
 /// The modes of a superposition, and their truncation error.
@@ -29,7 +29,7 @@ struct Superposition
 };
 
 /// Checks that need no modes: joints, virtual coordinates, driven rotors.
-/// @throws std::invalid_argument naming it
+/// @throws std::invalid_argument with the name of the object
 void check_superposition(const Machine &machine, const std::string &place);
 
 /**
@@ -42,14 +42,14 @@ void check_superposition(const Machine &machine, const std::string &place);
  *
  *     1 - sum_j (w.v_j)^2 / omega_j^2  /  w^T (C + W K_e W^T)^-1 w,
  *
- * which is what `tolerance` bounds, and what is noted where it is more than a twentieth.
+ * which `tolerance` limits; a note is added if it exceeds a twentieth.
  *
  * Source: (5.5.3/8 to 13); docs/theory/reduction.md, "Modal superposition".
  *
  * @param machine  dense or on an unreduced frame
- * @throws std::invalid_argument where the eigenproblem is singular or the coordinates are no vibrations: ideal joints,
- *         virtual coordinates, coordinates without mass, free motions such as an unloaded drive, with their names; more
- * modes than coordinates, or none.
+ * @throws std::invalid_argument if the eigenproblem is singular or coordinates do not vibrate: ideal joints, virtual
+ *         coordinates, coordinates without mass, rigid-body modes such as an unloaded drive, with their names; also for
+ *         more modes than coordinates, or none.
  */
 Superposition superpose(const Machine &machine, const Eigen::VectorXd &q, const SuperpositionOptions &options);
 

@@ -40,7 +40,7 @@ std::vector<SweptCoordinate> of_bodies(const Machine &machine)
       break;
     case BodyKind::point:
     case BodyKind::planar:
-    case BodyKind::rigid: // of its centre of mass; its rotation is no single coordinate
+    case BodyKind::rigid: // of its centre of mass; its rotation is not a single coordinate
       for (int i = 0; i < 3; ++i)
         add(machine.coordinate_name(body.coordinate + i), body.kind == BodyKind::planar && i == 2 ? "rad" : "m",
             body.coordinate + i);
@@ -140,7 +140,7 @@ KnownStart position_at(Machine &machine, const SweptCoordinate &coordinate, cons
     known.measures.emplace_back(coordinate.measure, x);
   else
   {
-    // s - f(t) at the start of the law, and how far it is from x.
+    // s - f(t) at the start of the law, and its distance from x.
     LocalState local;
     local.resize(machine);
     machine.gather(state.t, state.q, known.state.v, known.state.v, local);

@@ -24,7 +24,7 @@ SweptCoordinate swept_coordinate(const Machine &machine, const std::string &name
 /// Its value at q [m or rad].
 double swept_value(const Machine &machine, const SweptCoordinate &coordinate, const Eigen::VectorXd &q);
 
-/// What is known of a position where the coordinate has the value x, near `state`.
+/// Known values of a position near `state` in which the coordinate has the value x.
 KnownStart position_at(Machine &machine, const SweptCoordinate &coordinate, const InitialState &state, double x);
 
 } // namespace gestell::coupling

@@ -36,12 +36,12 @@ SparseCholesky analysis(const MatricesOnFirst &matrices)
 
 } // namespace
 
-/// What the shares pass on to the top.
+/// Contributions of the shares to the top.
 struct DividedFactor::Passing
 {
   const DividedFactor             &factor;
   std::vector<std::vector<double>> made = {}; // here
-  std::size_t                      next = 0;  // of those of rank 0 itself
+  std::size_t                      next = 0;  // next contribution of rank 0 itself
 
   Border of_share()
   {
@@ -179,7 +179,7 @@ fem::SparseMatrix DividedFactor::own_C() const
   return full;
 }
 
-/// Where the matrix that is eliminated has the rows of this rank.
+/// Marks the rows of this rank in the eliminated matrix.
 void DividedFactor::mark_held_rows()
 {
   held_marks_.assign(n_rows(), 0);
@@ -197,7 +197,7 @@ void DividedFactor::receive_share()
   mark_held_rows();
 }
 
-/// By coordinates where rank 0 keeps the whole, else by rows.
+/// The matrix C - sigma M: by coordinates where rank 0 has it as a whole, otherwise by rows.
 HeldMatrix DividedFactor::matrix(double sigma) const
 {
   const bool          whole = ranks_.first() && !on_first_.given_C;
@@ -241,7 +241,8 @@ void DividedFactor::reserve()
 namespace
 {
 
-/// Factor of some fronts, stored.  @returns -1, or the coordinate of a pivot that is no positive number.
+/// Computes and stores the factor of some fronts.
+/// @returns -1, or the coordinate of a pivot that is not a positive number.
 int factor_into(TiledPanels &L, const Fronts &fronts, const HeldMatrix &A, const Border &border)
 {
   int failed = multifrontal_cholesky(

@@ -15,27 +15,27 @@
 namespace gestell::coupling
 {
 
-/// Matrix on rank 0 to be divided; empty on others.
+/// Matrices on rank 0 to be distributed; empty on others.
 struct MatricesOnFirst
 {
   const Eigen::SparseMatrix<double> *C       = nullptr; // [n x n] both triangles, compressed
   const Eigen::SparseMatrix<double> *M       = nullptr; // the same, or none
   std::vector<int>                   held    = {};      // ascending
-  Eigen::SparseMatrix<double>       *given_C = nullptr; // in place of C: emptied, each rank keeps its part alone
+  Eigen::SparseMatrix<double>       *given_C = nullptr; // in place of C: emptied, so that each rank keeps only its part
 };
 
 /**
- * Cholesky factor of C, coordinates held, divided among ranks by subtrees of its elimination.
+ * Cholesky factor of C, with fixed coordinates, distributed among ranks by subtrees of its elimination.
  *
- * Each rank has the rows of its own subtrees and, after them, those of the top (the border), which all have.  With the
- * rows i of one rank and b of the border
+ * Each rank has the rows of its own subtrees, followed by those of the top (the border), which all ranks have.  With
+ * the rows i of one rank and b of the border
  *
  *     C = sum over ranks of  [ C_ii  C_ib ],      S = C_bb - sum C_bi C_ii^-1 C_ib,
  *                            [ C_bi  .    ]
  *
- * each makes the factor of its C_ii and its part of S; rank 0 adds these up and makes the factor of S.  Loads are
- * additive: what acts on the border is the sum of what the ranks have there.  Motions of the border are the same on
- * all. So are products with M: rank 0 has M_bb.
+ * each rank computes the factor of its C_ii and its part of S; rank 0 adds these parts and computes the factor of S.
+ * Loads are additive: the load on the border is the sum over the ranks.  Motions of the border are equal on all ranks.
+ * Products with M are also additive: rank 0 has M_bb.
  *
  * Every function is collective.
  *
@@ -50,32 +50,31 @@ public:
 
   const fem::Ranks &ranks() const { return ranks_; }
   int               n() const { return n_; }                   ///< coordinates
-  int               n_rows() const { return own_.fronts().n; } ///< here, those of the border behind
+  int               n_rows() const { return own_.fronts().n; } ///< on this rank, those of the border last
   int               n_own() const { return own_.columns(); }   ///< rows of this rank alone
-  /// Of the rows in the elimination of all.
+  /// Positions of the rows in the elimination of all.
   const std::vector<int> &places() const { return own_.places; }
-  /// Rows without motion, ascending.
+  /// Fixed rows, ascending.
   const std::vector<int> &held() const { return held_; }
   /// This rank's part of M, by its rows.
   fem::SparseMatrix own_M() const;
-  /// The same of C, if it was not given away.
+  /// The same of C, unless it was passed as given_C.
   fem::SparseMatrix own_C() const;
 
-  /// Computes the factor if needed.  @returns -1, or the coordinate of a pivot that is not positive, on rank
-  /// 0.
+  /// Computes the factor if needed. @returns -1, or the coordinate of a pivot that is not positive, on rank 0.
   int    factorise();
   void   release();
   double pivot_ratio() const; ///< (smallest / largest diagonal entry of L)^2
 
-  /// X <- C^-1 X, of loads to motions, by the rows of this rank.
+  /// X <- C^-1 X, from loads to motions, with the rows of this rank.
   void solve_in_place(MultiVector &X) const;
-  /// The same for columns on rank 0, in the order of its coordinates; zero where it is held.
+  /// The same for columns on rank 0, in the order of its coordinates; zero at fixed ones.
   void solve_on_first(Eigen::Ref<Eigen::MatrixXd> X) const;
 
-  /// Of C - sigma M; the growth is an upper bound.
+  /// Inertia of C - sigma M; the growth is an upper bound.
   Inertia inertia(double sigma) const;
 
-  /// What rank 0 has by coordinates, by the rows of each, and back.
+  /// Distributes a matrix on rank 0, by coordinates, to the rows of each rank, and collects it.
   void deal_out(const Eigen::Ref<const Eigen::MatrixXd> &X, Eigen::MatrixXd &rows) const;
   void collect(const Eigen::MatrixXd &rows, Eigen::Ref<Eigen::MatrixXd> X) const;
 
@@ -98,13 +97,13 @@ private:
   int                           n_ = 0;
   MatricesOnFirst               on_first_;
   double                        typical_ = 1.; // of C's diagonal
-  FrontSelection                own_, top_;    // `order`: places in the matrix that is eliminated, see matrix()
+  FrontSelection                own_, top_;    // `order`: positions in the eliminated matrix, see matrix()
   std::vector<int>              givers_;
   std::vector<std::vector<int>> columns_of_;  // rank 0: coordinates of each rank's own rows
   std::vector<int>              coordinates_; // rank 0: of its rows
   std::vector<int>              held_;
-  std::vector<char>             held_marks_; // by the places in the matrix
-  fem::SparseMatrix             C_, M_;      // parts of this rank; rank 0 has C_ if it was given, and the whole M
+  std::vector<char>             held_marks_; // by the positions in the matrix
+  fem::SparseMatrix             C_, M_;      // parts of this rank; rank 0 has C_ if there is given_C, and the whole M
   TiledPanels                   L_, L_top_;
   bool                          factored_ = false;
 };

@@ -16,12 +16,11 @@ namespace
 struct Search
 {
   const DividedFactor        *factor = nullptr;
-  fem::SparseMatrix           M, C; // this rank's parts; C but for block Lanczos
+  fem::SparseMatrix           M, C; // parts of this rank; C except for block Lanczos
   std::unique_ptr<ModeSearch> modes;
 };
 
-/// What this rank has of factors and searches, by number.  Never destroyed: at the end of the process MPI has ended
-/// before.
+/// Factors of this rank, by number. Never destroyed, because MPI ends before the process does.
 auto &factors()
 {
   static auto *const kept = new std::map<int, std::unique_ptr<DividedFactor>>;
@@ -33,7 +32,7 @@ auto &searches()
   return *kept;
 }
 
-/// Of work in which all ranks find the same, so that all fail alike.
+/// Runs work whose result is the same on all ranks: all ranks fail in the same way.
 template <typename Work>
 auto agreed(const Work &work)
 {

@@ -8,9 +8,9 @@
 namespace gestell::coupling
 {
 
-// The tasks of Team with divided factors.  Inputs of rank 0 are not read on other ranks; `number` names a factor.
+// The tasks of Team with distributed factors.  Inputs of rank 0 are not read on other ranks; `number`: of a factor.
 
-/// The other ranks load their libraries while rank 0 reads and meshes, without waiting.
+/// The other ranks load their libraries while rank 0 reads and meshes; it does not wait for them.
 struct PrepareTask
 {
   static constexpr RankTask order = RankTask::prepare;
@@ -36,7 +36,7 @@ struct FactoriseTask
 {
   static constexpr RankTask order       = RankTask::factorise;
   int                       number      = 0;
-  int                       failed      = -1; ///< made by run(), as what follows
+  int                       failed      = -1; ///< set by run(), as the following members
   double                    pivot_ratio = 0.;
   void                      run(const fem::Ranks &ranks);
 };
@@ -61,15 +61,15 @@ struct InertiaTask
   static constexpr RankTask order  = RankTask::inertia;
   int                       number = 0;
   double                    sigma  = 0.;
-  Inertia                   inertia{}; ///< found by run()
+  Inertia                   inertia{}; ///< set by run()
   void                      run(const fem::Ranks &ranks);
 };
 
-/// A new search on all ranks, for a factor.
+/// A new mode search on all ranks, for a factor.
 struct SearchTask
 {
   static constexpr RankTask order  = RankTask::search;
-  int                       number = 0, search = 0; ///< names the search
+  int                       number = 0, search = 0; ///< `search` identifies the search
   std::string               eigensolver{};
   BlockLanczos::Options     options{};
   const LowestModes        *known = nullptr;

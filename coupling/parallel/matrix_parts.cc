@@ -11,7 +11,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 namespace
 {
 
-/// A(order, order), by columns of ascending rows, of which keep(row, column) tells which stay.
+/// A(order, order), by columns of ascending rows, with the entries for which keep(row, column) is true.
 template <typename Keep>
 SparseMatrix part_of(const SparseMatrix &A, const std::vector<int> &order, const Keep &keep)
 {

@@ -9,15 +9,14 @@
 namespace gestell::coupling
 {
 
-// Parts of a symmetric matrix for a rank, A(order, order), its first n_own rows being its own and the rest those of
-// all.
+// Parts of a symmetric matrix for a rank, A(order, order); its first n_own rows belong to the rank, the rest to all.
 
-/// What the elimination of the first n_columns columns reads, and the diagonal, by which the growth of rounding is
-/// measured.
+/// Entries read by the elimination of the first n_columns columns, and the diagonal, with which the growth of rounding
+/// is measured.
 Eigen::SparseMatrix<double> lower_part(const Eigen::SparseMatrix<double> &C, const std::vector<int> &order,
                                        int n_columns);
 
-/// Of a sum over ranks; entries between the rows of all belong to the rank with them.
+/// Part of a sum over ranks; entries between common rows belong to the rank with with_border.
 Eigen::SparseMatrix<double> additive_part(const Eigen::SparseMatrix<double> &M, const std::vector<int> &order,
                                           int n_own, bool with_border);
 

@@ -3,7 +3,7 @@
 namespace gestell::coupling
 {
 
-/// Ranks above 0: the task of this order, with all others.
+/// On ranks above 0: runs the task with this number, together with all others.
 void obey(int order);
 
 } // namespace gestell::coupling

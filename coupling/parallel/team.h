@@ -5,7 +5,7 @@
 namespace gestell::coupling
 {
 
-/// Orders of rank 0, see fem::Ranks; 0 dismisses.
+/// Commands of rank 0, see fem::Ranks; 0 dismisses.
 enum class RankTask
 {
   prepare = 1,
@@ -25,22 +25,22 @@ enum class RankTask
  * The ranks of this run, controlled by rank 0.
  *
  * A task is a class with `static constexpr RankTask order` and a collective `void run(const fem::Ranks &)`.  Rank 0
- * makes one with what it needs and calls together(); obey() makes an empty one on every other rank and runs it there.
+ * creates one with its input and calls together(); obey() creates an empty one on every other rank and runs it there.
  */
 class Team
 {
 public:
   /// nullptr in a run of one process.
   static const Team *of_this_run();
-  /// From here on of_this_run() is the team, if there are other ranks; they must be in obey(), or wait to be.
+  /// Makes of_this_run() return the team, if there are other ranks; they must be in obey(), or enter it later.
   static void use();
 
   const fem::Ranks &ranks() const { return ranks_; }
-  /// For the next thing that all ranks keep; from 1 on.
+  /// Number for the next object that all ranks store; starts at 1.
   static int next_number();
 
-  /// @returns the task, with what it has found.
-  /// @throws std::invalid_argument, ConvergenceFailure: failures that all ranks agreed on.  Others end the program.
+  /// @returns the task with its results.
+  /// @throws std::invalid_argument, ConvergenceFailure: failures on which all ranks agree.  Others end the program.
   template <typename Task>
   Task together(Task task) const
   {
@@ -56,7 +56,7 @@ public:
     return task;
   }
 
-  /// On this rank, as part of what all do; any failure but an agreed one ends all ranks.
+  /// Runs this rank's part of a collective task; a failure on which the ranks do not agree ends all ranks.
   template <typename Task>
   static void carry_out(Task &task, const fem::Ranks &ranks)
   {

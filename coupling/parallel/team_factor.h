@@ -12,7 +12,7 @@ namespace gestell::coupling
 class TeamFactor
 {
 public:
-  /// Divided, not yet factored.  @param matrices must outlive this.
+  /// Distributes the matrices; no factor yet.  @param matrices  must outlive this.
   TeamFactor(const Team &team, const MatricesOnFirst &matrices);
   ~TeamFactor();
   TeamFactor(const TeamFactor &)            = delete;
@@ -26,7 +26,7 @@ public:
   void release();
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
 
-  /// Of C - omega^2 M; works when released, too.
+  /// Inertia of C - omega^2 M; also available after release().
   Inertia below(double omega) const;
   /// See search_modes().
   std::unique_ptr<ModeSearch> search(const std::string &eigensolver, const BlockLanczos::Options &options,

@@ -17,13 +17,13 @@ struct SolidReport
 struct SurfaceReport
 {
   int                   tag;
-  std::string           name;     ///< names and groups it has in the file, then those of the specification
+  std::string           name;     ///< names and groups from the file, then those of the specification
   std::string           type;     ///< "plane, normal (0 0 1), through (0 0 0.9)"
-  std::string           selector; ///< selector of it, for [frame.surface.NAME]
+  std::string           selector; ///< keys of [frame.surface.NAME] that select it
   double                area;     ///< [m^2]
   std::array<double, 3> min, max, centre;
   std::vector<int>      found_with{}; ///< tags of other faces that no selector distinguishes from it
-  std::string           kind{};       ///< "plane", "cylinder", else gmsh's word
+  std::string           kind{};       ///< "plane", "cylinder", else the type in gmsh
   std::array<double, 3> direction{};  ///< outward normal of a plane, axis of a cylinder
   std::array<double, 3> through{};    ///< [m] a point of the plane, of the axis
   double                radius = 0.;  ///< [m] of a cylinder
@@ -41,7 +41,7 @@ struct FacePicture
 struct LengthUnit
 {
   double      length = 1.;  ///< [m]
-  std::string name   = "m"; ///< "mm", "inch", or "0.03 m" where it has no name
+  std::string name   = "m"; ///< "mm", "inch", or "0.03 m" if it has no name
 };
 
 /// What `gestell mesh` reports of a file: geometry, mesh, and cost of the frame.
@@ -52,7 +52,7 @@ struct MeshReport
   double                     size   = 0.;            ///< of the elements [m]; 0 for a mesh file
   double                     volume = 0., mass = 0.; ///< [m^3], [kg]
   double                     worst_quality = 0., mean_quality = 0.;
-  double                     expected_cells = 0.;                ///< judged before meshing; 0 for a mesh file
+  double                     expected_cells = 0.;                ///< estimate before meshing; 0 for a mesh file
   double                     memory = 0., available_memory = 0.; ///< of the reduction, of this machine [byte]
   std::vector<std::string>   features;                           ///< smallest edges and faces, thin walls
   std::vector<std::string>   notes, statements;

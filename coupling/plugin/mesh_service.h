@@ -17,17 +17,17 @@ class MeshService
 public:
   virtual ~MeshService() = default;
 
-  /// Reads the geometry and finds its surfaces without a mesh, see fem::inspect_geometry(); what was found, for people.
+  /// Reads the geometry and finds its surfaces without a mesh, see fem::inspect_geometry(); returns a description.
   struct Inspection
   {
     std::string              found; ///< "2 solids, 0.00088 m^3; surfaces: base 1 face, bore 2 faces"
     std::vector<std::string> notes, statements;
-    /// [m] of the surfaces of each interface, as the CAD file tells them: without the rounding of a mesh.
+    /// [m] of the surfaces of each interface, from the CAD file, without the rounding of a mesh.
     std::map<std::string, fem::Vector3> centroids;
     /// [m] Low and high corner of the box around them.
     std::map<std::string, std::array<fem::Vector3, 2>> boxes;
     double                                             diagonal = 0.; ///< of the box around the solids [m]
-    bool curved = false; ///< an outer face is not plane; for a mesh, by its facets
+    bool curved = false; ///< some outer face is not plane; for a mesh, judged by its facets
   };
   virtual Inspection inspect(const fem::FrameSpecification &frame) = 0;
 
@@ -54,7 +54,7 @@ public:
                                    const ConvergenceOptions &options, const Progress &progress) = 0;
 };
 
-/// Loaded as frame_service() is.
+/// Loaded in the same way as frame_service().
 MeshService &mesh_service();
 
 } // namespace gestell::coupling

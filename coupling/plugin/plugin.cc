@@ -32,7 +32,7 @@ bool has_file(const fs::path &file)
   return fs::exists(file, ignored);
 }
 
-/// Beside the file in a build; installed, in lib/gestell of the prefix that it lies below.
+/// The plugin: in a build, in the folder of the file; installed, in lib/gestell of the prefix above the file.
 fs::path plugin_of(const fs::path &file, const char *library)
 {
   fs::path folder = file.parent_path();

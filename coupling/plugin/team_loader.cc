@@ -23,7 +23,7 @@ constexpr Launcher launchers[] = {{"mpirun", "OMPI_COMM_WORLD_SIZE", "OMPI_COMM_
                                   {"mpirun", "PMI_SIZE", "PMI_RANK"},
                                   {"srun", "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
 
-/// srun starts processes without any MPI, too; those of the other launchers have the variables above from it.
+/// Refuses processes that srun started without MPI. The other launchers set the variables above only with MPI.
 void require_mpi(const Launch &launched)
 {
   if (launched.by != std::string("srun") || std::getenv("PMIX_RANK") || std::getenv("PMIX_NAMESPACE"))

@@ -16,12 +16,12 @@ struct Launch
 Launch launch();
 
 /**
- * The ranks of mpirun as a team: libgestell_team.so, found as the plugin of frame_service() is, which loads MPI alone.
+ * The ranks of mpirun as a team: libgestell_team.so, found like the plugin of frame_service(); loads only MPI.
  *
  * The first call must be made by all ranks.
  *
- * @return nullptr where one process runs by itself, or this build has no finite element side.
- * @throws std::invalid_argument if the launcher gave its processes no MPI, or is of another MPI, so that they cannot
+ * @return nullptr for a single process, or if this build has no FEM part.
+ * @throws std::invalid_argument if the launcher provides no MPI, or another MPI, so that its processes cannot
  * communicate.
  */
 TeamService *team_service();

@@ -42,7 +42,7 @@ std::vector<fem::Interface> renumbered(std::vector<fem::Interface> interfaces, c
   return interfaces;
 }
 
-/// Unit diagonal makes metres and radians comparable; files written with 10 digits pass.
+/// Scaling to unit diagonal makes metres and radians comparable; the limit accepts files written with 10 digits.
 void require_semidefinite_stiffness(const MatrixXd &C)
 {
   const VectorXd d =
@@ -58,7 +58,7 @@ bool is_diagonal(const MatrixXd &A)
   return (A - MatrixXd(A.diagonal().asDiagonal())).cwiseAbs().maxCoeff() == 0.;
 }
 
-/// What stands behind the first n_1 coordinates are modes: M_LL = E, C_LL diagonal, C_LN = 0, as reductions write them.
+/// Whether the coordinates after the first n_1 are modal: M_LL = E, C_LL diagonal, C_LN = 0, as reductions write.
 bool is_modal(const ReducedFrame &frame)
 {
   const auto n_1 = frame.n_interface, m = int(frame.M.rows()) - n_1;

@@ -14,12 +14,12 @@ namespace gestell::coupling
  * Matrices of a reduced frame, whose other coordinates are modes (M_LL = E, C_LL diagonal, C_LN = 0), are recognised:
  * `modal`, so that steps are condensed to the interface.
  *
- * @param frame  symmetric [n x n]; M may be semidefinite if C holds what has no mass
+ * @param frame  symmetric [n x n]; M may be semidefinite if C constrains the massless coordinates
  * @throws std::invalid_argument if C has a negative eigenvalue, or a motion has neither stiffness nor mass
  */
 ReducedFrame dense_frame(const fem::FrameMatrices &frame);
 
-/// R [n x 3] with M R = translations_load: what dense_frame() needs to give the same load again.  M may be singular.
+/// R [n x 3] with M R = translations_load: input with which dense_frame() reproduces this load.  M may be singular.
 Eigen::MatrixXd unit_translations(const ReducedFrame &frame);
 
 } // namespace gestell::coupling

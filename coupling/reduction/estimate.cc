@@ -15,7 +15,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// As many of the model's own modes as it has exactly.
+/// The model's own modes, up to the number that is exact.
 RefinedModes exact_modes(const RefinedModes &ritz, Eigen::Index known)
 {
   const auto kept = std::min(known, ritz.omega.size());

@@ -17,10 +17,10 @@ struct ReductionEstimate
 };
 
 /**
- * Error of the frequencies by what the method knows of the frame's modes, refined or exact.
+ * Error of the frequencies from the modes of the frame that the method knows, refined or exact.
  *
- * @param star       of the whole basis.
- * @param completed  whether attachment modes joined it: then damping refers to the model's own modes.
+ * @param star       matrices of the whole basis.
+ * @param completed  whether attachment modes were appended: damping then refers to the model's own modes.
  */
 ReductionEstimate estimate(const ReductionSpace &space, const ReducedMatrices &star, bool completed,
                            const ReductionOptions &options);

@@ -12,13 +12,13 @@ namespace gestell::coupling
 
 /**
  * The frame in the coordinates p of q = T p: M*, B*, C*, loads T^T f, and the rows of outputs, pictures and stresses,
- * each the full one times T.
+ * each multiplied by T.
  *
  * A modal damping ratio zeta refers to the modes of the supported frame with free interface and enters as
  * B* = T^T B T + P diag(2 zeta omega) P^T,  P = T^T M Phi: as in add_modal_damping() for a full frame.
  *
  * @param star    of the basis.
- * @param damped  Phi.
+ * @param damped  Phi, the modes with damping ratios.
  * @param load    [n x 3] of a unit acceleration, or [n x 0].
  * @param beyond  [n x 3] deflection under it that is missing in the basis, added to outputs and stresses directly.
  *

@@ -72,7 +72,7 @@ bool complete(ReductionSpace &space, const fem::FrameMatrices &frame, const Matr
   return append_attachment_modes(space.basis, frame, side_by_side(std::exchange(space.attachment, {}), relief)) > 0;
 }
 
-/// Of those that stand first behind the interface.
+/// Flexibility of modes left out; the first n_modes coordinates after the interface are retained modes.
 MatrixXd modes_left_out(const ResidualFlexibility &response, const ReducedFrame &reduced, int n_modes)
 {
   const auto     n1   = reduced.n_interface;

@@ -15,18 +15,18 @@ struct ReducedModel
 };
 
 /**
- * Reduces a frame by the method that options name (Reductions): T of the method, with a common projection and error
+ * Reduces a frame by the method in `options` (Reductions): T of the method, with a common projection and error
  * estimate.
  *
- * @param frame   M, B, C [n x n] symmetric, both triangles stored; C22 positive definite (no rigid-body mode with the
+ * @param frame    M, B, C [n x n] symmetric, both triangles stored; C22 positive definite (no rigid-body mode with the
  * interface fixed); interfaces may be empty if modes are retained.
- * @param options 0 <= n_modes <= n - n1 or < 0; tolerance > 0; frequency >= 0 [Hz].
+ * @param options  0 <= n_modes <= n - n1 or < 0; tolerance > 0; frequency >= 0 [Hz].
  * @throws std::invalid_argument (sizes, free motions, names), ConvergenceFailure (eigenvalue solver).
  */
 ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
                                const Progress &progress = {});
 
-/// The frame alone.
+/// The same, returning only the frame.
 ReducedFrame reduce_frame(const fem::FrameMatrices &frame, const ReductionOptions &options,
                           const Progress &progress = {});
 

@@ -14,12 +14,13 @@ using Eigen::Index;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double rounding = 1e-9; ///< of the largest value of a signal: what is smaller is zero but for rounding
-/// Likewise at an event.  Its instant is located to delta = 1e-12 s or better, rounding of times of seconds and of the
-/// guard; a signal that goes to zero there, as a force of a contact of omega = sqrt(c/m) does, is told as y' delta =
-/// omega delta of its size: 1e-6 up to omega = 1e6 1/s, beyond what a run resolves.  Percentages of less say nothing.
+constexpr double rounding = 1e-9; ///< of the largest value of a signal: smaller values are rounding
+/// Likewise at an event. The instant of an event is located to delta = 1e-12 s or better (rounding of times of some
+/// seconds and of the event function). A signal that is zero there, such as the force of a contact with omega =
+/// sqrt(c/m), then has the value y' delta = omega delta of its size: 1e-6 up to omega = 1e6 1/s, more than a run
+/// resolves. Percentages of smaller values have no meaning.
 constexpr double located = 1e-6;
-constexpr double level   = 1e-4; ///< of the largest value, what y' or y'' make of a step: flat to first order
+constexpr double level   = 1e-4; ///< of the largest value: smaller changes by y' or y'' count as flat
 
 const double none = std::numeric_limits<double>::quiet_NaN();
 } // namespace
@@ -75,7 +76,7 @@ void ExtremeDerivatives::leave_out(OutputDerivatives &output, const std::string 
   output.note = "no derivative: " + reason;
 }
 
-/// A force that a law makes exactly zero is not.
+/// Whether the extreme is rounding. An exact zero is not: a force law can give it.
 bool ExtremeDerivatives::is_rounding(const Extreme &extreme) const
 {
   return extreme.value != 0. && std::abs(extreme.value) <= rounding * sizes_[extreme.signal];
@@ -127,7 +128,7 @@ void ExtremeDerivatives::at_turn(double t, std::size_t signal, const Turn &turn,
       take(extreme, turn, step);
 }
 
-/// Why an extreme lies where its signal does not turn; "": it does, or nearly.
+/// The reason why an extreme is not at a turning point of its signal; empty if it is, or nearly.
 std::string ExtremeDerivatives::no_turn(const Extreme &extreme, const Turn &turn, double step) const
 {
   std::ostringstream text;
@@ -143,9 +144,9 @@ std::string ExtremeDerivatives::no_turn(const Extreme &extreme, const Turn &turn
 
 void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
 {
-  const double second = (extreme.largest ? -1. : 1.) * turn.second; // > 0 where it turns
+  const double second = (extreme.largest ? -1. : 1.) * turn.second; // > 0 at a turning point
   const double shift  = -turn.rate / turn.second;
-  // What the curvature makes of the signal over the whole run.
+  // Change of the signal by its curvature over the whole run.
   const bool flat = std::abs(turn.second) * length_ * length_ < level * sizes_[extreme.signal];
   if (!turn.known() || flat || !(second > 0.) || !(std::abs(shift) < step))
   {
@@ -161,9 +162,9 @@ void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
   }
   VectorXd dt  = -turn.d_rate / turn.second;
   bool     far = false, lost = false;
-  // of a derivative of an instant, its error: it has no more figures than its y''
+  // error of the derivative of an instant, relative: no more figures than y''
   constexpr double known_share = 1e-4;
-  // or of the run's length, what the whole value of a parameter may move it wrongly
+  // or relative to the run's length, for a change by the whole value of the parameter
   constexpr double known_time = 1e-6;
   for (Index k = 0; k < turn.d_off.size(); ++k)
     if (const double off = std::abs(turn.d_off[k] / turn.second);

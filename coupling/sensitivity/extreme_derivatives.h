@@ -14,34 +14,34 @@ namespace gestell::coupling
 /**
  * Derivatives of the largest and smallest values of signals, of their instants and of the values at the end of a run.
  *
- * An extreme has a derivative at a turning point of its signal, y' = 0, or at an event.  Of the values that a signal
- * has about an event it is the derivative of the one nearest to the extreme.  No derivative, with the reason in the
- * note, have: extremes that are zero within rounding; those at a corner or a jump without event, and all others with
- * nonzero y'; instants of a flat peak, with y'' not accurate to 1e-4, with the turning point more than a step away,
- * with a change lost in rounding, or shifted by more than the run by 1 % of a parameter.
+ * An extreme has a derivative at a turning point of its signal, y' = 0, or at an event.  At an event the signal has
+ * several values; the derivative is that of the value closest to the extreme.  The following have no derivative, with
+ * the reason in the note: extremes that are zero within rounding; extremes at a corner or a jump without event, and all
+ * others with nonzero y'; instants of a flat peak, with y'' not accurate to 1e-4, with the turning point more than a
+ * step away, with a change lost in rounding, or with a shift longer than the run for 1 % of a parameter.
  *
  * Source: docs/sensitivities.md (9) to (11).
  */
 class ExtremeDerivatives
 {
 public:
-  /// @param near  [s] apart, instants are one
+  /// @param near  [s] instants closer than this coincide
   ExtremeDerivatives(const RunResult &run, const std::vector<ParameterTwins> &twins, double near, double length);
 
-  /// Instants of extremes inside a piece of the motion.
+  /// Instants of extremes within a piece of the motion.
   std::set<double> instants(double begin, double end) const;
   bool             any_at(double t) const;
-  /// Signals that have an extreme there, and their largest |y|.
+  /// Signals that have an extreme at t, and their largest |y|.
   std::map<std::size_t, double> turning_at(double t) const;
 
-  /// Around an event that shifts by dt: before it, between two events of one instant, after it.
+  /// At an event that shifts by dt: before it, between two coinciding events, after it.
   void at_event(double t, const Told &reported, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &dt);
-  /// Where a signal turns.
+  /// At a turning point of a signal.
   /// @param step  [s] of the variational equations
   void at_turn(double t, std::size_t signal, const Turn &turn, double step);
-  /// Extremes at t, where they begin to count, which moves by `dt`.
+  /// Extremes at the start t of their interval, which shifts by `dt`.
   void at_window(double t, const Told &reported, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &dt);
-  /// The end of the run, which moves by `end`.
+  /// At the end of the run, which shifts by `end`.
   void at_end(double t, const Told &reported, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &end);
 
   /// .min, .t_min, .max, .t_max, .final of every signal
@@ -53,7 +53,7 @@ private:
     std::size_t signal;
     bool        largest;
     double      t, value;
-    double      off; ///< of the value that it has a derivative of
+    double      off; ///< error of the value that has the derivative
   };
 
   OutputDerivatives &output(const Extreme &extreme, bool instant);

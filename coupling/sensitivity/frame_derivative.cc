@@ -64,7 +64,7 @@ MatrixXd nearest_combination(const ReducedFrame &at, const ReducedFrame &other)
     its << other.M.topRightCorner(n1, m), other.translations_load.bottomRows(m).transpose();
     return (own.cwiseProduct(its)).colwise().sum().cwiseSign().asDiagonal();
   }
-  constexpr std::size_t most_points = 500; // of the skin, at which shapes are compared: many times the modes
+  constexpr std::size_t most_points = 500; // of the skin for the comparison of shapes: many times the modes
   const std::size_t     n           = std::min(at.points.size(), most_points);
   MatrixXd              own = MatrixXd(Index(3 * n), m), its = own;
   for (std::size_t i = 0; i < n; ++i)

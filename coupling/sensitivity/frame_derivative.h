@@ -38,7 +38,7 @@ struct FrameDerivative
 FrameDerivative frame_derivative(const ReducedFrame &at, const ReducedFrame &minus, const ReducedFrame &plus,
                                  double step);
 
-/// The frame at x + by; its modes are coordinates like others then (ReducedFrame::modal).
+/// The frame at x + by; its modes are then ordinary coordinates (ReducedFrame::modal).
 ReducedFrame moved(const ReducedFrame &frame, const FrameDerivative &derivative, double by);
 
 } // namespace gestell::coupling

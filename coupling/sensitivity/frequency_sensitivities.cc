@@ -71,19 +71,19 @@ Matrices matrices(const LinearisedAt &at)
   return found;
 }
 
-/// Of M, K and G.
+/// Mean of M, K and G.
 Matrices mean(const Matrices &a, const Matrices &b)
 {
   return {0.5 * (a.M + b.M), 0.5 * (a.K + b.K), 0.5 * (a.G + b.G), {}, {}, {}, {}};
 }
 
-/// A mode with its left eigenvector, and what joints have to hold of both.
+/// A mode with its left eigenvector and the constraint forces of joints for both.
 struct TwoSidedMode
 {
   VectorXd v, w, mu, mu_w;
 };
 
-/// By inverse iteration in the motions Z that joints leave free.
+/// Left eigenvector by inverse iteration in the motions Z that the joints leave free.
 VectorXd left_vector(const Matrices &own, const MatrixXd &Z, const VectorXd &v, double square)
 {
   constexpr double nearby     = 1e-8; // of omega^2: nearer than any other frequency, and regular
@@ -140,7 +140,7 @@ std::string without_derivative(const std::vector<Mode> &modes, std::size_t j)
   constexpr double rest = 1e-6; // of the highest frequency: its square is rounding of the largest
   if (f <= rest * modes.back().frequency_hz)
     return "the frequency is zero compared with the highest one";
-  constexpr double meet = 1e-7; // relative difference of frequencies whose shapes are not told apart
+  constexpr double meet = 1e-7; // relative difference of frequencies below which their shapes are not unique
   for (const std::size_t other : {j - 1, j + 1})
     if (other < modes.size() && std::abs(modes[other].frequency_hz - f) <= meet * f)
       return "mode " + std::to_string(other + 1) + " has the same frequency";

@@ -9,8 +9,8 @@
 namespace gestell::coupling
 {
 
-/// Where a machine is linearised: q, and the elements that are not engaged.  Before any run: modes use the laws by the
-/// motion, not the branches of a run.
+/// Linearisation point of a machine: q, and the elements that are not engaged.  It is independent of any run: modes use
+/// the laws for the motion, not the branches of a run.
 struct LinearisedAt
 {
   const Machine                  *machine = nullptr;
@@ -18,14 +18,14 @@ struct LinearisedAt
   const std::vector<std::string> *open = nullptr;
 };
 
-/// The two machines of a parameter, step away on either side.
+/// The two machines of a parameter, at -step and +step.
 struct FrequencyTwins
 {
   LinearisedAt minus, plus;
   double       step = 0.;
 };
 
-/// Why the frequency of mode j has no derivative; empty: it has one.
+/// Why the frequency of mode j has no derivative; empty if it has one.
 std::string without_derivative(const std::vector<Mode> &modes, std::size_t j);
 
 /**
@@ -34,9 +34,9 @@ std::string without_derivative(const std::vector<Mode> &modes, std::size_t j);
  *
  *     8 pi^2 f df/dx = w^T (K_x - omega^2 M_x) v + w^T G_x^T mu + v^T G_x^T mu_w,     K v - omega^2 M v + G^T mu = 0,
  *
- * G of the joints in the coordinates of the machine; w is v, or where K is not symmetric the left eigenvector, w^T M v
- * = 1, with its own multipliers mu_w.  Matrices by x are central quotients, with the configuration that belongs to each
- * value; K, M and G their means.  nan: those without_derivative().
+ * with G of the joints in the coordinates of the machine; w is v, or if K is not symmetric the left eigenvector, w^T M
+ * v = 1, with its own multipliers mu_w.  Derivatives of matrices are central quotients, with the configuration for each
+ * value; K, M and G are their means.  nan for those with without_derivative().
  *
  * Source: Fox, Kapoor, AIAA Journal 6(12), 1968, 2426-2429, with constraints; docs/sensitivities.md (12).
  */

@@ -22,7 +22,7 @@ Growth::Growth(const Machine &machine, const VectorXd &mass, const Trajectory &t
 {
   const auto      &pieces = trajectory.pieces();
   const double     begin = pieces.front().nodes.front().t, end = pieces.back().nodes.back().t;
-  constexpr double early = 0.1; // of the run: growth is judged against what the begin has
+  constexpr double early = 0.1; // of the run: the reference for growth is its first part
   first_                 = begin + early * (end - begin);
   VectorXd low = pieces.front().nodes.front().q, high = low;
   for (const SmoothPiece &piece : pieces)
@@ -47,7 +47,7 @@ void Growth::look(double t, const Eigen::MatrixXd &s)
     const VectorXd weights = root_mass_.cwiseProduct(s.col(Index(k)).cwiseAbs());
     for (Index i = 0; i < way_.size(); ++i)
     {
-      // of the largest of the derivative: what is less tells nothing of its growth
+      // of the largest entry of the derivative: smaller entries do not show its growth
       constexpr double takes_part = 1e-3;
       if (!(way_[i] > 0.) || !(weights[i] > takes_part * weights.maxCoeff()))
         continue;
@@ -77,7 +77,7 @@ std::vector<std::string> Growth::warnings() const
     const std::string grown    = most.early > 0. ? "; since the first tenth of the run it grew by a factor of " +
                                                     short_text(most.ratio / most.early, 2)
                                                  : "";
-    constexpr double  believed = 0.1; // of its way, up to which first order is believed
+    constexpr double  believed = 0.1; // share of the range up to which first order is accepted
     sentences.push_back(
         "1 % of " + twins_[k].key + " would move " + machine_.coordinate_name(int(most.coordinate)) + " at t = " +
         short_text(most.t) + " s by " + short_text(one_percent * most.ratio, 2) + " times its total travel" + grown +

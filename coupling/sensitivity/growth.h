@@ -10,10 +10,10 @@ namespace gestell::coupling
 {
 
 /**
- * Validity of derivatives of a motion.  A change dx of a parameter moves coordinate i of a body by s_i dx;
- * if that exceeds the whole travel of the coordinate in the run, the first order is not valid. Only coordinates with
- * considerable momentum count, in the motion and in its derivative. In chaotic or unstable motions s grows by orders of
- * magnitude.
+ * Validity of derivatives of a motion.  A change dx of a parameter moves coordinate i of a body by s_i dx; if that
+ * exceeds the whole travel of the coordinate in the run, the first order is not valid. Only coordinates with
+ * considerable momentum, in the motion and in its derivative, are included. In chaotic or unstable motions s grows by
+ * orders of magnitude.
  */
 class Growth
 {
@@ -22,7 +22,7 @@ public:
   Growth(const Machine &machine, const Eigen::VectorXd &mass, const Trajectory &trajectory,
          const std::vector<ParameterTwins> &twins);
 
-  /// [s] a tenth of the run, from which growth is counted.
+  /// [s] a tenth of the run, after which growth is measured.
   double first_look() const { return first_; }
   void   look(double t, const Eigen::MatrixXd &s);
 
@@ -41,7 +41,7 @@ private:
   const std::vector<ParameterTwins> &twins_;
   double                             first_;
   Eigen::VectorXd                    root_mass_; ///< [n]
-  Eigen::VectorXd                    way_;       ///< [n] largest less smallest q; zero: it does not count
+  Eigen::VectorXd                    way_;       ///< [n] range of q; zero: not included
   std::vector<Largest>               largest_;
 };
 

@@ -12,7 +12,7 @@ namespace gestell::coupling
 /// Relative change of a parameter at which neighbouring events coincide, to first order: beyond it they change order,
 /// and derivatives are not valid. A sentence for each parameter with less than 1 %.
 /// @param outputs  only those of events are used, in their order in time
-/// @param near     [s] apart, events are at one instant and move together
+/// @param near     [s] events closer than this coincide and shift together
 std::vector<std::string> meeting_events(const std::vector<OutputDerivatives> &outputs,
                                         const std::vector<ParameterTwins> &twins, double near);
 

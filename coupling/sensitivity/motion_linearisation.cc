@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double shift = 1e-7; ///< of the size of an element, by which its measures are moved
+constexpr double shift = 1e-7; ///< step of its measures, relative to the size of an element
 
 /// (plus - minus)/2 step as a sparse matrix; empty if it is zero.
 Eigen::SparseMatrix<double> quotient(const Eigen::SparseMatrix<double> &minus, const Eigen::SparseMatrix<double> &plus,
@@ -24,8 +24,8 @@ Eigen::SparseMatrix<double> quotient(const Eigen::SparseMatrix<double> &minus, c
   return difference.nonZeros() > 0 ? difference : Eigen::SparseMatrix<double>();
 }
 
-/// The same of a matrix that is known by its products, column by column; a product with a vector that has no zeros
-/// tells whether there is anything: equal bit by bit means equal matrices.
+/// The same for a matrix that is known by its products, column by column. A product with a vector without zeros shows
+/// whether there is a difference: results that are equal bit by bit mean equal matrices.
 template <typename Product>
 Eigen::SparseMatrix<double> quotient(const LinearSystem &minus, const LinearSystem &plus, Product product, double step)
 {
@@ -248,7 +248,7 @@ void MotionLinearisation::add_at(double t, double factor, const MotionState &sta
         factor * plus_.segment(block.first_measure, block.n_measures);
 }
 
-/// By quotients of order 4.
+/// Adds rates by difference quotients of order 4.
 void MotionLinearisation::add_rates(const MotionState &state, double way, Linearised &at)
 {
   for (const auto &[by, weight] : {std::pair(way, 8. / 12.), std::pair(2. * way, -1. / 12.)})
@@ -256,12 +256,11 @@ void MotionLinearisation::add_rates(const MotionState &state, double way, Linear
       add_at(state.t + sign * by, sign * weight / way, state, at);
 }
 
-/// By which a measure of a block, or its rate, is moved for quotients.
+/// Step of a measure of a block, or of its rate, for difference quotients.
 double MotionLinearisation::way(const ForceBlock &block, int measure, bool rates, const LocalState &local)
 {
   const double x = std::abs(rates ? local.v[measure] : local.u[measure]);
-  // [m/s, rad/s] speed below which measures are moved as if they had it: quotients with wider ways tell whether that
-  // was right
+  // [m/s, rad/s] speed below which the step is that of this speed; quotients with wider steps check the result
   constexpr double slow = 1e-3;
   const double     size = rates ? slow : block.size > 0. ? block.size : 1.;
   return shift * std::max(x, size);
@@ -298,8 +297,8 @@ void MotionLinearisation::differentiate(const MotionState &state, const std::vec
     }
 }
 
-/// Marks blocks of which a derivative is not that of the forces, however small it is beside the others of its block: a
-/// stiff element on a measure that turns is stiff along it, and across it has the force itself over a length.
+/// Marks blocks with a derivative that differs from the quotient of the forces, even if it is small compared with the
+/// others of its block: a stiff element on a measure that rotates is stiff along it, with force over length across it.
 void MotionLinearisation::find_inexact(const MotionState &state)
 {
   const Index n_u = state.local.u.size();
@@ -313,7 +312,7 @@ void MotionLinearisation::find_inexact(const MotionState &state)
   machine_.forces().derivatives(state.local, product_, reported.P_u, reported.P_v);
   const std::vector<char> all(blocks_.size(), 1);
   differentiate(state, all, 1., seen);
-  constexpr double wider = 3.; // times as far for quotients that tell how well the others are known
+  constexpr double wider = 3.; // times the step, for quotients that show the error of the others
   differentiate(state, all, wider, wide);
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     for (const bool rates : {false, true})
@@ -406,7 +405,7 @@ void MotionLinearisation::bend_joints(const MotionState &state, VectorXd LocalSt
     const auto way = [&](const ConstraintBlock &block)
     {
       const double     size = block.size > 0. ? block.size : 1.;
-      constexpr double bend = 1e-6; // of the size of a joint, by which its measures are moved
+      constexpr double bend = 1e-6; // step of its measures, relative to the size of a joint
       return bend * (of_u ? size : std::max(size, std::abs((state.local.*moved)[block.first_measure + j])));
     };
     const auto move = [&](double sign)

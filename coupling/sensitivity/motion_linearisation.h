@@ -13,7 +13,7 @@ namespace gestell::coupling
 /// @throws std::invalid_argument with the reason and the remedy
 void require_variational(const Machine &machine);
 
-/// The motion and its accelerations, forces and multipliers, as the equation of motion gives them.
+/// The motion and its accelerations, forces and multipliers from the equation of motion.
 struct MotionState
 {
   double          t = 0.;
@@ -21,7 +21,7 @@ struct MotionState
   LocalState      local;
 };
 
-/// The equations of motion linearised at a motion, and what parameters change in them while it is held fixed.
+/// The equations of motion linearised at a motion, and their changes by parameters at fixed motion.
 struct Linearised
 {
   Eigen::MatrixXd    P_u, P_v, P_a; ///< dp/du, dp/du', dp/du'' [n_u x n_u]; that of joints, d(G^T lambda)/du, is in P_u
@@ -31,32 +31,32 @@ struct Linearised
   Eigen::MatrixXd    r;                ///< [n x K] loads by M, B, C, W and f_t of the parameters
   Eigen::MatrixXd    p;                ///< [n_u x K] forces by the parameters
   Eigen::MatrixXd    g, g_rate, gamma; ///< [n_c x K] of g, g' and g'' by the parameters
-  Eigen::MatrixXd    u, v, a;          ///< [n_u x K] of W^T q, q', q'' by W; empty: no parameter changes W
-  Eigen::VectorXd r_t, p_t, gamma_t; ///< rates of r [n], p [n_u] and g'' [n_c] by the time itself; zero: not asked for
+  Eigen::MatrixXd    u, v, a;          ///< [n_u x K] of W^T q, q', q'' due to W; empty: no parameter changes W
+  Eigen::VectorXd r_t, p_t, gamma_t; ///< explicit time derivatives of r [n], p [n_u] and g'' [n_c]; zero: not requested
 };
 
 /**
- * Linearises a machine along a motion: exact derivatives of the laws (of those that act along directions which turn, by
- * quotients), and what parameters change while the motion is held fixed, by central quotients of their two machines
- * with the histories that each of them has by then.
+ * Linearises a machine along a motion: exact derivatives of the laws (by quotients if their directions rotate), and
+ * changes by parameters at fixed motion, by central quotients of the two machines of each parameter with their present
+ * histories.
  *
  * Source: docs/sensitivities.md (3), (4).
  */
 class MotionLinearisation
 {
 public:
-  /// @throws std::invalid_argument as require_variational(), and for a massless coordinate that is not a first-order
-  /// state
+  /// @throws std::invalid_argument as require_variational() does, and for a massless coordinate that is not a
+  ///   first-order state
   MotionLinearisation(Machine &machine, const std::vector<ParameterTwins> &twins);
 
-  /// Accelerations, forces and multipliers of a motion, and the rates of coordinates without mass; state.t, q, v are
-  /// given, local.lambda is where to begin.
+  /// Computes accelerations, forces and multipliers of a motion, and the rates of massless coordinates; state.t, q, v
+  /// are given, local.lambda is the initial guess.
   void complete(MotionState &state);
-  /// A smooth piece of the motion begins, that passes these instants: parameters whose two machines have bit by bit
-  /// equal forces at all of them are skipped on it, as are force derivatives by u'' that are zero there, and time rates
-  /// if these motions have the same forces at the first of these instants. None: nothing is skipped.
+  /// Starts a smooth piece of the motion through these instants.  Parameters whose two machines have identical forces
+  /// at all of them are skipped on it, as are force derivatives by u'' that are zero there, and time rates if these
+  /// motions have the same forces at the first of these instants.  Without instants nothing is skipped.
   void begin_piece(const std::vector<MotionState> &passed);
-  /// What there is at a state, by the histories that the machine and its twins have now.
+  /// Linearises at a state, with the present histories of the machine and its twins.
   /// @param way  [s] short relative to the motion: also time derivatives; 0: none
   void linearise(const MotionState &state, Linearised &at, double way = 0.);
 
@@ -101,9 +101,9 @@ private:
   ConstraintJacobian                 G_minus_, G_plus_;
   LocalState                         moved_;
   std::vector<ForceBlock>            blocks_;
-  std::vector<char>                  inexact_; ///< blocks whose derivatives leave out how their directions turn
+  std::vector<char>                  inexact_; ///< blocks whose derivatives neglect the rotation of their directions
   bool                               of_accelerations_ = true; ///< a force depends on u'' on the present piece
-  bool                               of_time_          = true; ///< something depends on the time itself, likewise
+  bool                               of_time_          = true; ///< there are explicit time derivatives on the piece
 };
 
 } // namespace gestell::coupling

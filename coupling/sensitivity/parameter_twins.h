@@ -21,7 +21,7 @@ struct MachineTwin
 };
 
 /// A parameter and the machine at x - step and x + step, of one structure: coordinates, measures, joints, elements.
-/// Derivatives at a fixed motion are quotients of the two; no motion of theirs is ever computed.
+/// Derivatives at a fixed motion are quotients of the two; their own motions are never computed.
 struct ParameterTwins
 {
   std::string key;  ///< "parameters.c_P"

@@ -24,10 +24,10 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double little    = 0.02; ///< of their step, over which rates in time are taken
+constexpr double little    = 0.02; ///< of their step: increment of quotients in time
 constexpr double same_time = 1e-9; ///< of the run's length: what locating two events leaves of one
 
-/// The run gone over once more, with its derivatives.
+/// Second pass over the run, with its derivatives.
 class Passage
 {
 public:
@@ -59,12 +59,12 @@ private:
   Growth                         growth_;
   VectorXd                       lambda_;
   MatrixXd                       s_, s_rate_;
-  RowVectorXd                    dt_; ///< of the events at the begin of the piece
+  RowVectorXd                    dt_; ///< derivatives of the instant of the events at the start of the piece
   double                         near_        = 0.;
   bool                           interrupted_ = false;
 };
 
-/// Derivatives are no better than the motion they follow.
+/// Tolerance of the variational equations: derivatives are no more accurate than the motion.
 double tolerance_for(const MethodOptions &method)
 {
   constexpr double finest = 1e-8, coarse = 1e-6; // tolerances of a step of the variational equations
@@ -74,7 +74,7 @@ double tolerance_for(const MethodOptions &method)
   return method.order > 2 ? finest : of_fixed_steps;
 }
 
-/// Of fixed steps, if 1 or 2; else 0.
+/// Order of a method of fixed steps, if 1 or 2; otherwise 0.
 int order_of_steps(const MethodOptions &method)
 {
   return controlled(method) || method.order > 2 ? 0 : method.order;
@@ -143,7 +143,7 @@ void Passage::start()
   dt_ = RowVectorXd::Zero(K_);
 }
 
-/// What the motion goes through.
+/// Sets the expected sizes of the derivatives from the range and the speed of the motion.
 void Passage::expect()
 {
   const auto &pieces = problem_.trajectory.pieces();
@@ -158,7 +158,7 @@ void Passage::expect()
   RowVectorXd per_value(K_);
   for (int k = 0; k < K_; ++k)
     per_value[k] = 1. / std::abs(problem_.twins[std::size_t(k)].value);
-  constexpr double expected = 0.01; // relative change of the motion by that of a parameter: less need not be exact
+  constexpr double expected = 0.01; // relative change of the motion by the parameter: a scale of errors
   steps_.expect(expected * (high - low) * per_value, expected * fast * per_value);
   if (controlled(problem_.options.method))
     steps_.separate_shifts(high - low, fast, length_of(problem_.options) / one_percent * per_value);
@@ -209,7 +209,7 @@ RowVectorXd Passage::event_time_derivatives(int guard, const MotionState &state,
   }
   const double moves = std::abs(guard_at(steps_.step()) - guard_at(-steps_.step())) +
                        std::abs(guard_at(steps_.step()) + guard_at(-steps_.step()));
-  constexpr double touching = 1e-4; // of what a guard moves in a step, its rate: it touches its zero only
+  constexpr double touching = 1e-4; // rate of a guard, over its change in a step: it only touches zero
   if (!(std::abs(rate) * steps_.step() > touching * moves))
   {
     const ActiveGuard  active = machine_.events().guard(guard);
@@ -306,7 +306,7 @@ void Passage::take_events(std::size_t number)
   }
 }
 
-/// At the begin of a piece: behind the events that began it, or the start of the run.
+/// At the start of a piece: after the events that began it, or at the start of the run.
 void Passage::tell_piece_begin(std::size_t number)
 {
   const MotionState &state = steps_.state();
@@ -388,7 +388,7 @@ void Passage::tell_end()
   extremes_.at_end(steps_.state().t, reported, y_rates, shift_of(&MachineTwin::end));
 }
 
-/// Of a motion too coarse to have the derivatives that its equations have along it.
+/// Warning about a motion that is too coarse for the derivatives of its equations along it.
 std::string coarse_motion(const VariationalAccuracy &accuracy, const SensitivityProblem &problem)
 {
   Index        worst;

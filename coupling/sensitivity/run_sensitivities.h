@@ -22,7 +22,7 @@ struct RunSensitivities
   double                         wall_s      = 0.;
 };
 
-/// What to differentiate.
+/// Input of run_sensitivities().
 struct SensitivityProblem
 {
   Machine                           &machine; ///< of the run; its history is changed
@@ -31,20 +31,20 @@ struct SensitivityProblem
   const RunResult                   &run;
   const Trajectory                  &trajectory;
   const std::vector<ParameterTwins> &twins;
-  const std::atomic<bool>           *stop = nullptr; ///< ends the pass, which keeps its results so far; null: none
+  const std::atomic<bool>           *stop = nullptr; ///< ends the pass, which retains its results so far; null: none
 };
 
 /**
  * Derivatives of run results by parameters: largest and smallest value of every signal and their instants, values
  * at the end, times of events.
  *
- * At an event, the zero of a guard g located at t_e,
+ * At an event, the zero of an event function g located at t_e,
  *
  *     dt_e = -(g_x + grad g . s)/g',     s'_behind = s'_before + (q''_before - q''_behind) dt_e,
  *
- * and histories of elements change with the time and the motion at which each takes its transition: those of the two
- * machines of a parameter are carried along, at x -+ step.  A largest value at t* has the partial derivative at t*, its
- * instant -(dy/dx)'/y''; one at an event has dy/dx + y' dt_e.
+ * and histories of elements depend on the time and the motion of each transition: those of the two machines of a
+ * parameter are updated along the motion, at x -+ step.  A largest value at t* has the partial derivative at t*, its
+ * instant -(dy/dx)'/y''; a value at an event has dy/dx + y' dt_e.
  *
  * @throws std::invalid_argument if the machines of a parameter have another structure, for events that were not
  * located, velocity jumps, or unsupported elements; ConvergenceFailure

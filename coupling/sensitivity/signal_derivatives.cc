@@ -16,12 +16,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double      longest = 0.32, shorter = 0.25; ///< ways of rates: of a step, and from one to the next
+constexpr double      longest = 0.32, shorter = 0.25; ///< distances of quotients: of a step, and ratio
 constexpr double      epsilon   = std::numeric_limits<double>::epsilon(); ///< rounding of one value
 constexpr std::size_t stretches = 8;    ///< of sigma, each four times as long as the one before
 constexpr double      accurate  = 1e-4; ///< of y'', its error
 
-/// What a signal does over the two shortest ways is a jump: it does not become less with the way.
+/// Whether the change of a signal over the two shortest distances is a jump: it does not decrease with the distance.
 bool jumps(double at_far, double at_near, double rounding)
 {
   constexpr double same     = 0.25; // share within which a jump is the same over both of two ways
@@ -55,7 +55,7 @@ MotionState zero_like(const MotionState &z)
   return zero;
 }
 
-/// Of one parameter, at a fixed time.
+/// The derivative of the motion with respect to one parameter, at a fixed time.
 MotionState of_column(const MotionColumns &columns, int k, const MotionState &like)
 {
   MotionState z  = zero_like(like);
@@ -87,8 +87,8 @@ VectorXd along(const Machine &machine, const Signal &signal, const Moving &z, do
   return rates;
 }
 
-/// The first of the two neighbours that agree best, but for the rounding of the first value, a quarter of it of the
-/// next.
+/// Index of the first of the two neighbouring values that agree best. The rounding of the first value is added, and a
+/// quarter of it for each next one.
 Index best_of(const VectorXd &values, double rounding)
 {
   const auto differ = [&](Index i)
@@ -145,7 +145,7 @@ VectorXd SignalDerivatives::values(const MotionState &state) const
   return y;
 }
 
-/// By quotients of order 4.
+/// Course of the motion, by difference quotients of order 4.
 Course SignalDerivatives::course(const MotionState &state, double way)
 {
   const auto  &lags = equation_.lags();
@@ -166,7 +166,7 @@ Course SignalDerivatives::course(const MotionState &state, double way)
   return found;
 }
 
-/// On the branches of here.
+/// The motion after the time `by`, on the present branches.
 MotionState SignalDerivatives::moved(const MotionState &state, const Course &course, double by)
 {
   MotionState there = state;
@@ -189,7 +189,7 @@ MotionColumns SignalDerivatives::moved(const MotionState &at, const MotionColumn
   return there;
 }
 
-/// By central quotients of two distances: order 4.
+/// Rates by central quotients of two distances: order 4.
 void SignalDerivatives::find_rates(const MotionState &state, double way, LocalState &rates, VectorXd &y_rates)
 {
   const Course on = course(state, way);
@@ -221,7 +221,7 @@ double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, d
 {
   struct Over
   {
-    double way, rate, second, before, after, jump; ///< jump: y behind less y before
+    double way, rate, second, before, after, jump; ///< jump: y after the instant minus y before it
   };
   const auto   y    = [&](const MotionState &m) { return machine_.evaluate(signals_[signal], m.q, m.v, m.a, m.local); };
   const double here = y(at);
@@ -245,7 +245,8 @@ double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, d
   std::size_t best = 0;
   for (std::size_t j = 1; j + 1 < ways; ++j)
     best = differ(j) < differ(best) ? j : best;
-  // Where rounding, which grows by the square of the ways, is less than what they differ by, the next is better.
+  // Rounding grows with the inverse square of the distance. If the rounding estimated from the next difference is below
+  // this difference, the next value is better.
   const double rounds = best + 2 < ways ? differ(best + 1) * shorter * shorter : differ(best);
   found.off           = std::min(rounds, differ(best));
   best += 2. * rounds < differ(best) ? 1 : 0;
@@ -262,7 +263,7 @@ double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, d
   return slow ? longest * step : over[best].way;
 }
 
-/// With the rates of all that signals read: those of q, q', u and u' as they are known, of others by quotients over
+/// The motion with the rates of all values that signals read: known rates of q, q', u and u', others by quotients over
 /// `way`.
 Moving SignalDerivatives::moving(const MotionState &at, double way)
 {
@@ -301,7 +302,8 @@ std::vector<Moving> SignalDerivatives::moving(const MotionState &at, const Motio
   return found;
 }
 
-/// Of signals that are slow beside the steps.  @return whether it is known
+/// For signals that are slow compared with the steps.
+/// @return whether the turning point is known
 bool SignalDerivatives::find_slow_turn(std::size_t signal, const MotionState &at, double way, Turn &found)
 {
   VectorXd second[2];
@@ -354,7 +356,7 @@ Turn SignalDerivatives::turn(std::size_t signal, MotionState at, MotionColumns c
 {
   Turn          found;
   double        way  = find_turn(signal, at, step, size, found);
-  constexpr int most = 3; // of Newton's steps to where a signal turns: quadratic, from a way to `arrived`
+  constexpr int most = 3; // Newton steps to the turning point, with quadratic convergence to `arrived`
   for (int k = 0; k < most; ++k)
   {
     const double     by      = -found.rate / found.second;

@@ -19,7 +19,7 @@ enum class Kink
 {
   none,
   corner, ///< its rate jumps
-  jump    ///< it does
+  jump    ///< the signal jumps
 };
 
 /// Time derivatives of a signal at or near a turning point.
@@ -35,32 +35,32 @@ struct Turn
   bool known() const;
 };
 
-/// The motion about an instant by Taylor's series: q'' of all coordinates, those without mass included, whose rate
-/// follows from a law, and its rate.
+/// Taylor series of the motion about an instant: q'' of all coordinates (including massless ones, whose rate follows
+/// from a law), and its rate.
 struct Course
 {
   Eigen::VectorXd second, third; // [n]
 };
 
-/// A motion, or its derivative by a parameter, and the rate of all that signals read of it.
+/// A motion, or its derivative by a parameter, and the rates of all quantities that signals read.
 struct Moving
 {
   MotionState at, rate;
 };
 
 /**
- * Signals of a run along a motion, and their derivatives: by parameters at a fixed time, from the two machines of each
- * parameter at the motion moved by as much of its derivative; in time, by quotients over a little of the smooth motion
- * about an instant, of order 4, on the branches that hold there.
+ * Signals of a run along a motion, and their derivatives. Derivatives by parameters at a fixed time follow from the two
+ * machines of each parameter, at the motion changed by its derivative times the step. Time derivatives are quotients of
+ * order 4 over a short interval of the smooth motion about an instant, on the branches that are active there.
  *
  * A shorter increment has less truncation error and more rounding. turn() tries increments of 1/3 to 1/50000 of a step
  * and uses the first of two neighbours with the best agreement of y''; their difference is the error. At a corner y''
  * grows as the increment shrinks, and neighbours never agree.
  *
- * A signal that is slow relative to the steps changes by less than its rounding over such increments.  Its rate is
- * then found along the rates of the motion, y'(t) = (y(z + sigma z') - y(z - sigma z'))/2 sigma with z all that it
- * reads, where sigma may be as long as the signal's own law is smooth, up to 5000 steps; y'' and dy'/dx are quotients
- * of these rates. Again the two neighbours that agree best count, of y'' over two ways.
+ * A signal that is slow relative to the steps changes by less than its rounding over such increments.  Its rate is then
+ * computed along the rates of the motion, y'(t) = (y(z + sigma z') - y(z - sigma z'))/2 sigma, where z is all its input
+ * and sigma may be as long as the signal's own law is smooth, up to 5000 steps; y'' and dy'/dx are quotients of these
+ * rates.  Again the first of the two neighbours with the best agreement is used, for y'' over two intervals.
  */
 class SignalDerivatives
 {
@@ -70,19 +70,19 @@ public:
 
   Eigen::VectorXd values(const MotionState &state) const;
   Told            tell(const MotionState &state, const MotionColumns &columns) const;
-  /// The measures and forces at a motion moved by `by` times its derivative by parameter k.
+  /// The measures and forces at a motion changed by `by` times its derivative by parameter k.
   LocalState local_at(const MotionState &state, const MotionColumns &columns, int k, double by) const;
 
   /// @param way  [s] short relative to the motion
   Course course(const MotionState &state, double way);
   /// The motion at another instant.
   MotionState moved(const MotionState &state, const Course &course, double by);
-  /// Rates of measures, forces and multipliers, and of the signals.
+  /// Computes the rates of measures, forces and multipliers, and of the signals.
   /// @param way  [s] short relative to the motion
   void find_rates(const MotionState &state, double way, LocalState &rates, Eigen::VectorXd &of_signals);
-  /// Of a signal at the turn next to a motion, where it is found by Newton's method.
+  /// Derivatives of a signal at its turning point near a motion, found by Newton's method.
   /// @param step  [s] of the variational equations
-  /// @param size  of the signal, its largest value
+  /// @param size  largest value of the signal
   Turn turn(std::size_t signal, MotionState at, MotionColumns columns, double step, double size);
 
 private:

@@ -41,7 +41,7 @@ VariationalEquation::VariationalEquation(Machine &machine, const std::vector<Par
   }
 }
 
-/// Without mass, T s' + s = r + dp: what the equation lacks stands where accelerations do, and changes s'.
+/// Coordinates without mass obey T s' + s = r + dp: the residual is in the place of accelerations and corrects s'.
 void VariationalEquation::settle_lags(const Linearised &at, MotionColumns &columns) const
 {
   for (std::size_t i = 0; i < lags_.size(); ++i)
@@ -123,7 +123,7 @@ void VariationalEquation::find_loads(const Linearised &at, const MotionColumns &
     }
 }
 
-/// columns.a = A^-1 f; of small systems by A^-1 B and A^-1 C, for few parameters have loads r.
+/// columns.a = A^-1 f; for small systems by A^-1 B and A^-1 C, since few parameters change loads r.
 void VariationalEquation::answer_loads(const Base &base, const Linearised &at, MotionColumns &columns)
 {
   if (base.inverse.size() == 0)
@@ -246,7 +246,7 @@ MatrixXd VariationalEquation::joint_right(const Linearised &at, const MotionColu
   return -at.gamma - at.Gamma_u * columns.u - at.Gamma_v * columns.u_rate;
 }
 
-/// dp and dlambda, of which right_ holds what was solved for last: dlambda and dp_h.
+/// dp and dlambda from the last solution in right_: dlambda and dp_h.
 void VariationalEquation::find_forces(const Linearised &at, MotionColumns &columns) const
 {
   const auto &held = machine_.forces().held();

@@ -28,16 +28,16 @@ struct MotionColumns
  *
  * with the terms of MotionLinearisation.
  *
- * A stage of an implicit method, s = s_0 + c s', s' = s'_0 + c s'', is solved as a step of an integrator is, with
- * A = M + c B + c^2 C, condensed to the measures where these are fewer than the coordinates; c = 0 gives the
- * accelerations that belong to s and s'.
+ * A stage of an implicit method, s = s_0 + c s', s' = s'_0 + c s'', is solved like a step of an integrator, with A = M
+ * + c B + c^2 C, condensed to the measures if these are fewer than the coordinates; c = 0 gives the accelerations for s
+ * and s'.
  *
  * Source: docs/sensitivities.md (2) to (5).
  */
 class VariationalEquation
 {
 public:
-  /// @throws std::invalid_argument as MotionLinearisation
+  /// @throws std::invalid_argument as MotionLinearisation does
   VariationalEquation(Machine &machine, const std::vector<ParameterTwins> &twins);
 
   Machine                &machine() { return machine_; }
@@ -50,9 +50,9 @@ public:
   ///
   ///     G W^T s + g_x = 0,   G W^T s' + (G u' + rate)_u W^T s + (G u' + rate)_x = 0,
   ///
-  /// of which steps keep the second derivative only; and all else that follows from s and s'.
+  /// because steps satisfy only the second derivative; then updates all members that follow from s and s'.
   void close_joints(const Linearised &at, MotionColumns &columns);
-  /// Of columns.q = s_0, columns.v = s'_0 the stage: all of `columns`.
+  /// Solves the stage for columns.q = s_0, columns.v = s'_0; fills all of `columns`.
   void solve(const Linearised &at, double c, MotionColumns &columns);
 
 private:

@@ -24,7 +24,7 @@ constexpr double weights[5][4] = {{0., 0., 0., 0.},
                                   {17. / 50., -1. / 25., 0., 0.},
                                   {371. / 1360., -137. / 2720., 15. / 544., 0.},
                                   {25. / 24., -49. / 48., 125. / 16., -85. / 12.}};
-/// Weights of the method less those of the embedded one.
+/// Weights of the method minus those of the embedded method.
 constexpr double differences[5] = {25. / 24. - 59. / 48., -49. / 48. + 17. / 96., 125. / 16. - 225. / 32., 0., 1. / 4.};
 
 constexpr int middle = 3; ///< stage at half a step
@@ -138,8 +138,8 @@ VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, 
 void VariationalSteps::look_along(const SmoothPiece &piece)
 {
   std::vector<MotionState> passed;
-  constexpr std::size_t    looks           = 7;  // at a piece at least, for what acts on it
-  constexpr std::size_t    nodes_of_a_look = 20; // what is zero at each look and acts between them lasts no longer
+  constexpr std::size_t    looks           = 7;  // at least, in each piece
+  constexpr std::size_t    nodes_of_a_look = 20; // a term that is zero at all looks acts for fewer nodes
   const std::size_t        last = piece.nodes.size() - 1, n = std::max(looks, last / nodes_of_a_look);
   for (std::size_t i = 0; i <= n; ++i)
   {
@@ -198,8 +198,8 @@ void VariationalSteps::settle_errors()
   leaves_ = false;
 }
 
-/// tau = (s . q' + s' . q'')/(q' . q' + q'' . q'') with each coordinate and rate by its own share of the motion; where
-/// it leaves little of s, and is no longer than what counts: of a motion at rest q' is rounding.
+/// Splits s into a time shift tau q' and a rest: tau = (s . q' + s' . q'')/(q' . q' + q'' . q''), each coordinate and
+/// rate relative to its own motion. Applied only if the rest is small and tau not too long: at rest q' is rounding.
 void VariationalSteps::split()
 {
   shift_.setZero(columns_.q.cols());
@@ -227,7 +227,7 @@ void VariationalSteps::split()
   size_v_ = size_v_.cwiseMax(rest_v_.cwiseAbs());
 }
 
-/// Behind a step of the rest: s, and all else.
+/// After a step of the rest: s and all other columns.
 void VariationalSteps::join()
 {
   if (shift_.isZero(0.))
@@ -251,7 +251,7 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
     const double     length         = last ? left : step_;
     const bool       made           = try_step(last ? t : from + length);
     const double     err            = error(length);
-    constexpr double shortest_share = 1. / 16.; // of the distance of nodes: the motion in between is no better known
+    constexpr double shortest_share = 1. / 16.; // of the distance of nodes: the motion in between is not known better
     if (!made || (!(err <= 1.) && length > shortest_share * reader_.spacing()))
     {
       constexpr int most_halvings = 30; // 1e-9 of a step
@@ -291,7 +291,7 @@ bool VariationalSteps::try_step(double to)
     stage_state_.t = i == n_stages - 1 ? to : from + at_shares[i] * H;
     reader_.read(0.25 * H, stage_state_);
     equation_.linearisation().complete(stage_state_);
-    constexpr double time_share = 0.01; // of a step, over which rates by the time itself are taken
+    constexpr double time_share = 0.01; // of a step: increment of quotients in time
     equation_.linearisation().linearise(stage_state_, stage_at_, shifted ? time_share * H : 0.);
     if (leaves_ && i == middle)
     {
@@ -318,7 +318,7 @@ bool VariationalSteps::try_step(double to)
   return stage_.a.allFinite();
 }
 
-/// What the rates of the motion make of loads by the time itself.
+/// Change of time-dependent loads by the time shift.
 void VariationalSteps::shift_loads(double sign, Linearised &at) const
 {
   at.r += sign * at.r_t * shift_;
@@ -336,9 +336,9 @@ double VariationalSteps::error(double length)
   return relative_sizes(e_q_, e_v_).maxCoeff() / tolerance_;
 }
 
-/// What steps left beyond their tolerance, and has become of it: where quotients of the machines are rounding, no step
-/// meets the tolerance, and what these leave has no direction.  And what steps of the run would have left, as h y''/2
-/// of order 1 and h^2 y'''/3 of order 2 tell, over their length.
+/// Adds the errors of steps beyond the tolerance and their propagation: where quotients of the machines are rounding,
+/// no step meets the tolerance. Also adds the errors of the steps of the run over their length, h y''/2 for order 1 and
+/// h^2 y'''/3 for order 2.
 void VariationalSteps::note_accuracy(double error, double length)
 {
   if (leaves_)
@@ -357,7 +357,7 @@ void VariationalSteps::note_accuracy(double error, double length)
   }
   if (run_order_ > 0)
   {
-    constexpr double longest_told = 4.; // steps of the run against those here: beyond, differences tell nothing
+    constexpr double longest_told = 4.; // steps of the run per step here: beyond, differences are not usable
     const double     h            = std::min(run_step_, longest_told * length);
     for (const auto &[e, f] : {std::pair(&e_q_, &v_), std::pair(&e_v_, &a_)}) // stages 0, 3, 1: a quarter step apart
       *e = run_order_ == 1 ? MatrixXd(h * ((*f)[1] - (*f)[0]))

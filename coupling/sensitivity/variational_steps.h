@@ -10,8 +10,8 @@
 namespace gestell::coupling
 {
 
-/// Interpolation of a motion between its nodes: by the quintic through q, q', q'' of the two next to it, or the
-/// cubic through q, q' where nodes are close.
+/// Interpolation of a motion between its nodes: by the quintic through q, q', q'' of the two adjacent nodes, or the
+/// cubic through q, q' if nodes are close.
 class PieceReader
 {
 public:
@@ -21,7 +21,7 @@ public:
   /// q, q' at state.t.
   /// @param close  [s] nodes within this distance are close
   void read(double close, MotionState &state);
-  /// [s] of the nodes about where it was read last
+  /// [s] distance of the nodes around the last instant read
   double spacing() const;
 
 private:
@@ -37,7 +37,7 @@ private:
 /// Accuracy of the derivatives of a motion, relative to the largest of them.
 struct VariationalAccuracy
 {
-  static constexpr double believed = 0.02; ///< errors up to it are not reported
+  static constexpr double believed = 0.02; ///< errors up to this are not reported
 
   Eigen::RowVectorXd off; ///< of each parameter: largest error of the steps so far
   double             after = std::numeric_limits<double>::infinity(); ///< [s] after which one of them is not reliable
@@ -46,22 +46,23 @@ struct VariationalAccuracy
 /**
  * Integrates s and s' along a smooth piece of a motion, by the singly diagonally implicit Runge-Kutta method of five
  * stages and order 4, stiffly accurate and L-stable, whose stages are steps of A = M + c B + c^2 C with c = H/4; the
- * step H, from a ladder of powers of two, is controlled by the embedded method of order 3.  Steps of the run are
- * divided down to a sixteenth.  What that leaves, e, goes on as derivatives do, E'' = ... without what parameters
- * change, by the implicit midpoint rule, and counts to the accuracy: errors of truncation add up from period to period
- * of an oscillation, whose phase they have, while those of rounding have none.  Events do not change E; where something
- * sticks from then on its size stays.
+ * step H, a power of two of the largest, is controlled by the embedded method of order 3.  Steps of the run are divided
+ * down to a sixteenth.  The remaining error e is propagated like a derivative, E'' = ... without parameter terms, by
+ * the implicit midpoint rule, and is part of the accuracy: truncation errors accumulate from period to period of an
+ * oscillation because they have its phase, in contrast to rounding errors.  Events do not change E; after an element
+ * starts to stick, its size is kept.
  *
- * What a parameter makes of the motion is often a shift in time, s = tau q' and a rest.  The errors of the run are
- * moved with it, and are in q' of the motion, but in no solution of the equations along it; peaks, of which all that
- * has tau must cancel, would have tau times as much of them.  separate_shifts() has each step carry the rest, with
+ * The effect of a parameter on the motion is often mainly a shift in time, s = tau q' plus a remainder.  The errors of
+ * the run are shifted too: they are in q' of the motion, but in no solution of the equations along it.  In peaks, where
+ * all terms with tau must cancel, these errors would remain multiplied by tau.  After separate_shifts() each step
+ * integrates only the remainder, with
  *
  *     tau = (s . q' + s' . q'')/(q' . q' + q'' . q'')
  *
- * by shares of the whole motion, and add tau q' and tau q'' of the motion behind it.
+ * scaled by the whole motion, and adds tau q' and tau q'' of the motion after the step.
  *
- * To the accuracy counts, too, what the method of the run, with its step, would make of these derivatives: y'' and y'''
- * by differences of the stages.  The run did make the motion by that method, so that the motion errs alike.
+ * The accuracy also includes the error that the method of the run, with its step, would make in these derivatives (y''
+ * and y''' by differences of the stages): the motion of the run has the same error.
  *
  * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5; docs/sensitivities.md (6),
  * (6a).
@@ -69,31 +70,31 @@ struct VariationalAccuracy
 class VariationalSteps
 {
 public:
-  /// @param first      [s] the first step that is tried
-  /// @param tolerance  of a step, of the largest derivatives so far or those expected
-  /// @param run_order  of the run's method by fixed steps, if 1 or 2, whose errors are found; 0: they are not
-  /// @param run_step   [s] likewise
+  /// @param first      [s] the first step to be tried
+  /// @param tolerance  of a step, relative to the largest derivatives so far or those expected
+  /// @param run_order  of the run's method with fixed steps, if 1 or 2, to include its errors; 0: not included
+  /// @param run_step   [s] of that method
   VariationalSteps(VariationalEquation &equation, double first, double tolerance, int run_order = 0,
                    double run_step = 0.);
 
-  /// Derivatives count from these sizes on, however small they have been so far.  @param s, s_rate  [n x K]
+  /// Sets lower bounds for the scales of the derivatives.  @param s,  s_rate  [n x K]
   void expect(const Eigen::MatrixXd &s, const Eigen::MatrixXd &s_rate);
 
-  /// From here on each step carries s - tau q', of a motion that errs less than the tolerance.
-  /// @param way, speed  [n] of the coordinates, through the run
-  /// @param longest     [s per unit] shift that counts for each parameter, beyond it s is carried whole
+  /// Makes further steps integrate s - tau q'; the error of the motion must be smaller than the tolerance.
+  /// @param way,     speed  [n] ranges of the coordinates and their speeds in the run
+  /// @param longest  [s per unit] largest shift for each parameter; beyond it the whole s is integrated
   void separate_shifts(const Eigen::VectorXd &way, const Eigen::VectorXd &speed, const Eigen::RowVectorXd &longest);
 
-  /// At the beginning of a piece.  @param s, s_rate  [n x K]
+  /// Starts a piece.  @param s,  s_rate  [n x K]
   void begin(const SmoothPiece &piece, const Eigen::VectorXd &lambda, const Eigen::MatrixXd &s,
              const Eigen::MatrixXd &s_rate);
-  /// @return whether it came there: `stop` ends it before; null: nothing does
+  /// @return whether t was reached: `stop` ends it before; null: no interruption
   bool advance_to(double t, const std::atomic<bool> *stop = nullptr);
 
   const MotionState   &state() const { return state_; }
   const Linearised    &linearised() const { return at_; }
   const MotionColumns &columns() const { return columns_; }
-  double               step() const { return step_; } ///< [s] short against what moves
+  double               step() const { return step_; } ///< [s] short compared with all motions
   long                 steps() const { return n_steps_; }
 
   const VariationalAccuracy &accuracy() const { return accuracy_; }
@@ -120,17 +121,17 @@ private:
   MotionState                           state_, stage_state_;
   Linearised                            at_, stage_at_;
   MotionColumns                         columns_, stage_;
-  Eigen::VectorXd                       per_way_, per_speed_; ///< of coordinates that move; empty: s is carried whole
+  Eigen::VectorXd                       per_way_, per_speed_; ///< of moving coordinates; empty: s is not separated
   Eigen::RowVectorXd                    longest_;
   Eigen::RowVectorXd                    shift_;            ///< [s per unit] tau
   Eigen::MatrixXd                       rest_q_, rest_v_;  ///< s - tau q', s' - tau q''
   std::array<Eigen::MatrixXd, n_stages> v_, a_;            ///< s', s'' of the stages
   Eigen::MatrixXd                       size_q_, size_v_;  ///< largest |s|, |s'| so far
   Eigen::MatrixXd                       e_q_, e_v_;        ///< errors of a step
-  MotionColumns                         left_, left_next_; ///< what those beyond the tolerance have become
-  bool                                  leaves_ = false;   ///< there are some
-  Eigen::RowVectorXd                    settled_;          ///< sizes of those before something stuck
-  Eigen::RowVectorXd                    of_run_;           ///< sum of what steps of the run would have left
+  MotionColumns                         left_, left_next_; ///< propagated errors of steps beyond the tolerance
+  bool                                  leaves_ = false;   ///< there are such errors
+  Eigen::RowVectorXd                    settled_;          ///< sizes of those before an element stuck
+  Eigen::RowVectorXd                    of_run_;           ///< sum of the errors of the run's steps
   VariationalAccuracy                   accuracy_;
   Eigen::VectorXd                       root_mass_;
 };

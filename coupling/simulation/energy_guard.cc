@@ -36,12 +36,12 @@ double EnergyGuard::residual() const
 
 EnergyGuard::Verdict EnergyGuard::verdict() const
 {
-  constexpr double of_begin = 1e-6; // what iterations leave of the energy at the start
+  constexpr double of_begin = 1e-6; // error of iterations, relative to the energy at the start
   const double     E = exchanged(), negligible = std::max(double(steps_) * rounding_, of_begin * std::abs(at_begin_));
-  constexpr double little = 0.01, nowhere = 0.5; // shares of E: an error to speak of; energy that came from nowhere
+  constexpr double little = 0.01, nowhere = 0.5; // shares of E: a relevant error; a spurious energy gain
   if (residual() <= std::max(little * E, negligible))
     return Verdict::closed;
-  // more than the motion has can only be lost where it never was; E is known to a half
+  // a loss above the energy of the motion is spurious; E is known to 50 %
   constexpr double all = 1.5;
   return gain_ > std::max(nowhere * E, negligible) || loss_ > std::max(all * E, negligible) ? Verdict::no_motion
                                                                                             : Verdict::open;

@@ -11,13 +11,13 @@ namespace gestell::coupling
 class StateArchive;
 
 /**
- * Says whether the energy balance of a run is open: its residual against the energy that the motion exchanges,
+ * Checks the energy balance of a run: compares its residual with the energy that the motion exchanges,
  *
  *     E = max( kinetic energy that coordinates gained or lost, |stored|, range of input + range of dissipated ),
  *
- * the largest of each so far.  A vibration that goes on for long is so measured by its own energy, a machine that is
- * driven by the work that went through it; what a load gives and takes back in every period adds nothing.  Below the
- * rounding of N steps, N epsilon sum|f| max(|q|, 1), or a millionth of the energy it began with, nothing is open.
+ * the largest of each so far.  For a long vibration E is its own energy, for a driven machine the work transmitted; a
+ * load whose work is returned in every period does not increase E.  The balance counts as closed if the residual is
+ * below the rounding errors of N steps, N epsilon sum|f| max(|q|, 1), or below a millionth of the initial energy.
  *
  * Source: docs/theory/integration.md (11a).
  */
@@ -26,15 +26,15 @@ class EnergyGuard
 public:
   enum class Verdict
   {
-    closed,   ///< to one per cent of E
+    closed,   ///< within one per cent of E
     open,     ///< the step is too long for the motion
-    no_motion ///< spurious energy gain of at least half of E, or a loss of more than there was
+    no_motion ///< spurious energy gain of at least half of E, or a loss of more than the available energy
   };
 
-  /// @param at_begin  stored energy [J] that the balance counts from
+  /// @param at_begin  initial stored energy [J] of the balance
   explicit EnergyGuard(double at_begin = 0.) : at_begin_(at_begin) {}
 
-  /// Once per step.
+  /// Called once per step.
   /// @param size  largest |q|
   /// @throws ConvergenceFailure if the energy is not finite
   void step(const EnergyState &state, double size);
@@ -42,14 +42,14 @@ public:
   double  exchanged() const; ///< E [J]
   double  residual() const;  ///< largest |residual| so far [J]
   Verdict verdict() const;
-  /// What is open and by what, empty if closed.
-  /// @param method  with its step, for messages: "BDF 2 with a step of 0.001 s"
+  /// Description of the residual, empty if the balance is closed.
+  /// @param method  name with its step, for messages: "BDF 2 with a step of 0.001 s"
   std::string words(const std::string &method) const;
 
   void exchange(StateArchive &archive);
 
 private:
-  /// Of a quantity that begins with zero.
+  /// Range of a quantity that starts at zero.
   struct Range
   {
     double least = 0., most = 0.;

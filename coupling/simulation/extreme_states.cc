@@ -55,7 +55,7 @@ void ExtremeStates::follow()
     const SignalSummary &signal = signals_[request_.extremes[i].signal];
     const double         t      = request_.extremes[i].largest ? signal.t_max : signal.t_min;
     KeptState           &kept   = kept_.extremes[i];
-    // What changed since the last call lies within the last step.
+    // Extremes that changed since the last call are within the last step.
     if (kept.q.size() > 0 && kept.t == t)
       continue;
     kept   = {t, state(t)};

@@ -13,15 +13,15 @@ namespace gestell::coupling
 
 class StateArchive;
 
-/// Takes the wanted states from the dense output, where they lie, not from the steps beside them.  Without a request a
-/// step costs one comparison.
+/// Takes the requested states from the dense output at their exact instants, not from the ends of steps.  Without a
+/// request a step costs one comparison.
 class ExtremeStates
 {
 public:
   ExtremeStates(const Machine &machine, const TimeIntegrator &integrator, const StateRequest &request, double begin,
                 const std::vector<SignalSummary> &signals, KeptStates &kept);
 
-  /// At the start, after a step and after an event, when the extremes of the signals are known.
+  /// Called at the start, after a step and after an event, when the extremes of the signals are known.
   void follow();
 
   void exchange(StateArchive &archive);

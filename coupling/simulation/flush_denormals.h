@@ -7,8 +7,8 @@
 namespace gestell::coupling
 {
 
-/// While it lives, numbers below 1e-308 are zero.  Motions that nothing excites, as of bodies in space that move in a
-/// plane, die away to such numbers, on which a processor is seven times slower.
+/// During its lifetime, numbers below 1e-308 are set to zero.  Motions without excitation, such as the out-of-plane
+/// motion of bodies that move in a plane, decay to such numbers, with which a processor is seven times slower.
 class FlushDenormals
 {
 public:

@@ -7,8 +7,8 @@
 namespace gestell::coupling
 {
 
-/// Forces p [n_u] on the measures of all elements at a motion: of laws by their values, of joints and of what sticks as
-/// the motion carries them.
+/// Forces p [n_u] on the measures of all elements for a motion: from the values of laws; for joints and sticking
+/// elements from the motion.
 void forces_on_measures(const Machine &machine, const LocalState &local, Eigen::VectorXd &p);
 
 } // namespace gestell::coupling

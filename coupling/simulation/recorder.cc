@@ -17,7 +17,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// share of the grid's step within which an instant is a point of it: rounding of sums of steps
+/// share of the grid's step within which an instant is a grid point: rounding of sums of steps
 constexpr double on_grid = 1e-9;
 
 /// @throws ConvergenceFailure
@@ -100,7 +100,7 @@ Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, con
   if (picture_step_ > 0.)
   {
     result.picture_states.reserve(static_cast<std::size_t>(length / picture_step_ + 2.));
-    constexpr long close_least = 100; // pictures close to events of a run at least, else as many as the grid makes
+    constexpr long close_least = 100; // smallest number of pictures close to events, else as many as on the grid
     close_budget_              = std::max(close_least, static_cast<long>(length / picture_step_));
   }
 }
@@ -139,7 +139,7 @@ void Recorder::begin()
   around_.follow();
 }
 
-/// The motion behind the last event, at which the last step began or where there is none yet.
+/// Records the state after the last event, at which the last step began, or the initial state.
 void Recorder::settle()
 {
   pending_ = false;
@@ -158,7 +158,7 @@ void Recorder::step()
   const double begin = integrator_.step_begin(), end = integrator_.time();
   if (!(end > begin))
     return;
-  constexpr double brief = 1e-9; // share of the step before: what lasts shorter lies within the resolution of events
+  constexpr double brief = 1e-9; // share of the previous step: shorter durations are below the resolution of events
   if (pending_ && end - begin < brief * length_)
   {
     follow_briefly();
@@ -203,7 +203,7 @@ void Recorder::event(const Event &event)
 
 void Recorder::values_before()
 {
-  constexpr std::size_t most_event_values = 1000; // of a run: those of chattering contacts would fill the memory
+  constexpr std::size_t most_event_values = 1000; // in a run: those of chattering contacts would fill the memory
   if (result_.event_values.size() == most_event_values)
     return;
   EventValues at;
@@ -217,7 +217,7 @@ void Recorder::values_before()
   result_.event_values.push_back(std::move(at));
 }
 
-/// Of the events since the motion settled last.
+/// Records values after the events since the last settled state.
 void Recorder::values_behind()
 {
   for (; settled_ < result_.event_values.size(); ++settled_)
@@ -240,7 +240,7 @@ void Recorder::rows()
   }
 }
 
-/// At t in the last step, where evaluate() was last.
+/// Energy at t in the last evaluated step.
 EnergySummary Recorder::energy_inside(double t)
 {
   between_.t = t;
@@ -256,7 +256,7 @@ void Recorder::row(double t, const SignalSample &sample, const EnergySummary &en
     result_.rows.insert(result_.rows.end(), {energy.input, energy.stored, energy.dissipated});
 }
 
-/// On the grid, and for some steps behind an event on one so much finer that what rings then is seen.
+/// Saves pictures on the grid and, for some steps after an event, on a much finer grid that shows ringing.
 void Recorder::pictures()
 {
   if (!(picture_step_ > 0.))
@@ -312,7 +312,7 @@ void Recorder::picture_event()
   }
 }
 
-/// What is left to tell of the motion behind the last event.
+/// Records the rest of the state after the last event.
 void Recorder::settle_at_end(RunOutcome &outcome)
 {
   try

@@ -17,22 +17,22 @@ namespace gestell::coupling
 /// Why a motion is invalid: a coordinate or its rate is not finite; "" if all are.
 std::string non_finite_state_message(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
 
-/// Coordinates that signals read by their positions or rates, ascending.
+/// Coordinates whose positions or rates signals read, ascending.
 std::vector<int> coordinates_of(const std::vector<Signal> &signals);
 
-/// What tells the accelerations that signals read; nothing if none does.
-/// @throws std::invalid_argument as Accelerations
+/// Evaluator of the accelerations that signals read; none if no signal reads any.
+/// @throws std::invalid_argument as Accelerations does
 std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signals, const SecondOrderSystem &system);
 
 /**
- * Follows a run: extremes of all signals, rows of the history and states for pictures, the energy balance.
+ * Records a run: extremes of all signals, rows of the history, states for pictures, and the energy balance.
  *
- * Rows and pictures stand on grids of their own, taken from the dense output.  Extremes count at every row besides
- * where SignalExtremes looks.
+ * Rows and pictures have separate time grids, evaluated by dense output.  Rows are also samples for the extremes, in
+ * addition to those of SignalExtremes.
  *
- * An instant with events has two motions that count: the one just before the first event, and the one behind the last,
- * which is told with the step that goes on from there.  What lies between them lasts for no time: a rod without play is
- * slack between thrust and pull, and what sticks under more than its limit slips at once.
+ * At an instant with events two states are recorded: the one just before the first event, and the one after the last,
+ * which is recorded with the next step.  States between them have no duration: a rod without clearance is slack between
+ * compression and tension, and a sticking element above its limit slips at once.
  */
 class Recorder : public RunObserver, private SampledRun
 {
@@ -45,7 +45,7 @@ public:
   void event(const Event &event) override;
   void finish(RunOutcome &outcome) override; ///< the last instant always has a row
 
-  void exchange(StateArchive &archive) override; ///< of the result what was recorded, too
+  void exchange(StateArchive &archive) override; ///< also the records in the result
 
 private:
   void          evaluate(double t, SignalSample &sample) override;
@@ -78,13 +78,13 @@ private:
   SignalExtremes               extremes_;
   SignalSample                 probe_;            ///< scratch
   LocalState                   after_;            ///< the motion after the last event
-  bool                         pending_  = false; ///< and it has not been reported yet
-  double                       length_   = 0.;    ///< of the last reported step
+  bool                         pending_  = false; ///< and it has not been recorded yet
+  double                       length_   = 0.;    ///< of the last recorded step
   double                       row_step_ = 0., picture_step_ = 0.;
-  std::size_t                  settled_  = 0;                    ///< events whose values after them are reported
-  long                         next_row_ = 0, next_picture_ = 0; ///< on their grids
-  double                       close_until_  = 0.;               ///< [s] pictures follow closely
-  long                         close_budget_ = 0;                ///< how many such may still be made
+  std::size_t                  settled_  = 0;                    ///< events with recorded values after them
+  long                         next_row_ = 0, next_picture_ = 0; ///< indices on their grids
+  double                       close_until_  = 0.;               ///< [s] until then pictures are dense
+  long                         close_budget_ = 0;                ///< remaining number of dense pictures
 };
 
 } // namespace gestell::coupling

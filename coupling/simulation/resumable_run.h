@@ -13,16 +13,16 @@
 namespace gestell::coupling
 {
 
-/// What a run keeps of itself now and then, so that one that was stopped goes on.
+/// Checkpoints of a run, so that an interrupted run can be resumed.
 struct RunCheckpoints
 {
-  std::string from; ///< state to go on from, of a run that is otherwise the same; empty: none
-  std::function<void(const std::string &)> keep; ///< takes a state
+  std::string                              from; ///< state to resume from, of an identical run; empty: none
+  std::function<void(const std::string &)> keep; ///< stores a state
   double                                   every =
-      30.; ///< [s] of wall time between two; more where keeping them would take more than 0.5 %; 0: at a stop
+      30.; ///< [s] of wall time between two; longer if storing them takes more than 0.5 %; 0: only when stopped
 };
 
-/// What a run did with a signal, as far as it was sampled.
+/// Extremes of a signal over a run, as far as it was sampled.
 struct WatchedValue
 {
   bool   known = false; ///< false: it never had a finite value
@@ -38,19 +38,19 @@ struct WatchedValue
     if (value > most)
       most = value, t_most = t;
   }
-  double largest() const { return most > -least ? most : -least; } ///< amount
+  double largest() const { return most > -least ? most : -least; } ///< largest absolute value
   double t_largest() const { return most > -least ? t_most : t_least; }
 };
 
-/// Signals that are followed without rows in the history.
+/// Signals that are monitored without rows in the history.
 struct WatchedSignals
 {
   std::vector<Signal>       signals;
-  std::vector<WatchedValue> values; ///< of these, after the run; empty: it did not start
+  std::vector<WatchedValue> values; ///< of these signals, after the run; empty: it did not start
 };
 
-/// simulate() that keeps checkpoints and goes on from one, and follows signals; null: neither.
-/// @throws std::runtime_error besides if the state is that of another run
+/// simulate() with checkpoints, resuming and monitored signals; null: without.
+/// @throws also std::runtime_error if the state is that of another run
 RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress,
                    const std::atomic<bool> *stop, Trajectory *trajectory, const RunCheckpoints *checkpoints,

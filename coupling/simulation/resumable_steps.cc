@@ -18,7 +18,7 @@ void ResumableSteps::begin_with(const Eigen::VectorXd &history, bool located)
   located_      = located;
 }
 
-/// Whoever drives it has started a history, which is replaced.
+/// The driver has started a history, which is replaced here.
 void ResumableSteps::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   partly_ = false;
@@ -29,7 +29,7 @@ void ResumableSteps::begin(double t, const Eigen::VectorXd &q, const Eigen::Vect
   }
   inner_->begin(t, q, v);
   if (with_history_)
-    system_.events().accept(inner_->local()); // the history may be that of the step in which t lies
+    system_.events().accept(inner_->local()); // the history may be that of the step that contains t
   with_history_ = false;
 }
 

@@ -9,19 +9,19 @@ namespace gestell::coupling
 {
 
 /**
- * The steps of another integrator, which may begin in the midst of a motion: with the history that elements have there.
+ * Wraps another integrator so that it can start in the middle of a motion, with the history of the elements there.
  *
- * It may show a part of the last step only, to those who ask for what happened up to an instant in it.
+ * It can hide the end of the last step from code that asks for the motion up to an instant inside the step.
  */
 class ResumableSteps : public TimeIntegrator, public ErrorControl
 {
 public:
   ResumableSteps(SecondOrderSystem &system, std::unique_ptr<TimeIntegrator> inner);
 
-  /// Until show_whole_step() or another step the last one ends at t for those who look at it.
+  /// Until show_whole_step() or another step the last step appears to end at t.
   void show_until(double t);
   void show_whole_step() { partly_ = false; }
-  /// The next begin() is one in the midst of a motion, with this history of the elements.
+  /// The next begin() starts in the middle of a motion, with this history of the elements.
   /// @param located  laws follow it
   void begin_with(const Eigen::VectorXd &history, bool located);
 
@@ -48,10 +48,10 @@ public:
 private:
   SecondOrderSystem              &system_;
   std::unique_ptr<TimeIntegrator> inner_;
-  ErrorControl                   *control_; ///< of it, or null
+  ErrorControl                   *control_; ///< that of the inner integrator, or null
   Eigen::VectorXd                 history_;
   bool                            with_history_ = false, located_ = true, partly_ = false;
-  Instant                         shown_; ///< the end of the part that is shown
+  Instant                         shown_; ///< the end of the visible part
 };
 
 } // namespace gestell::coupling

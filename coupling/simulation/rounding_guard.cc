@@ -28,7 +28,7 @@ void RoundingGuard::finish(const LinearSystem &system, double exchanged, double 
   const Eigen::VectorXd size  = least_.cwiseAbs().cwiseMax(most_.cwiseAbs()),
                         force = std::numeric_limits<double>::epsilon() * (C.cwiseAbs() * size),
                         work  = force.cwiseProduct(most_ - least_);
-  // of the energy exchanged, and of that at the start, that rounding may do as work
+  // of the exchanged energy, and of the energy at the start: largest work of rounding
   constexpr double share_of_motion = 0.01, share_of_begin = 1e-6;
   if (!(work.sum() > share_of_motion * exchanged && work.sum() > share_of_begin * std::abs(at_begin)))
     return;

@@ -31,7 +31,7 @@ Sampling sampling_of(const Machine &machine, const MethodOptions &method)
   for (const SpectrumLine &mode : machine.linear().spectrum())
     if (mode.omega > 0.)
       sampling.shortest = std::min(sampling.shortest, 2. * M_PI / (samples_of_period * mode.omega));
-  // Up to 0.8 rad a step is as short against all modes as those of implicit methods.
+  // Up to 0.8 rad a step resolves all modes as well as a step of an implicit method.
   sampling.inside = sampling.inside || method.step > 4. * sampling.shortest;
   return sampling;
 }

@@ -15,37 +15,37 @@
 namespace gestell::coupling
 {
 
-/// Where a signal is largest or smallest.
+/// A request for the maximum or minimum of a signal.
 struct SignalExtreme
 {
-  int  signal  = -1; ///< number
+  int  signal  = -1; ///< its index
   bool largest = true;
 };
 
-/// States of a run that are kept for what is computed from them afterwards, stresses for instance.
+/// Requested states of a run for later computations, for example of stresses.
 struct StateRequest
 {
-  double                     step = 0.; ///< [s] of a grid from the beginning of the run; 0: none
+  double                     step = 0.; ///< [s] of a grid that starts with the run; 0: none
   std::vector<double>        at;        ///< [s] instants, ascending
   std::vector<SignalExtreme> extremes;
-  std::vector<SignalExtreme> around; ///< whose surroundings are kept, see StatesAround
+  std::vector<SignalExtreme> around; ///< extremes around which states are kept, see StatesAround
 
-  /// What is asked for besides `around`.
+  /// Whether there is a request other than `around`.
   bool empty() const { return !(step > 0.) && at.empty() && extremes.empty(); }
 };
 
 struct KeptState
 {
   double          t = 0.;
-  Eigen::VectorXd q;   ///< empty: the run did not come so far
-  Eigen::VectorXd v{}; ///< of extremes and what is around them alone
-  Eigen::VectorXd p{}; ///< likewise: forces on the measures, see RunResult::picture_forces
+  Eigen::VectorXd q;   ///< empty: the run did not reach it
+  Eigen::VectorXd v{}; ///< only for extremes and the states around them
+  Eigen::VectorXd p{}; ///< as v: forces on the measures, see RunResult::picture_forces
 };
 
 struct KeptStates
 {
-  std::vector<KeptState>              grid, at, extremes; ///< the last two as in the request
-  std::vector<std::vector<KeptState>> around;             ///< as in the request, each ascending in time
+  std::vector<KeptState>              grid, at, extremes; ///< at, extremes: in the order of the request
+  std::vector<std::vector<KeptState>> around;             ///< in the order of the request, each ascending in time
 };
 
 struct RunOptions
@@ -53,17 +53,17 @@ struct RunOptions
   MethodOptions method;
   double        begin = 0., end = 0.;   ///< [s]
   double        output_step    = 0.;    ///< [s] between rows of the history; 0: see output_step()
-  double        picture_step   = 0.;    ///< [s] between saved states for pictures, closer behind events; 0: none
-  StateRequest  states         = {};    ///< kept besides
+  double        picture_step   = 0.;    ///< [s] between saved states for pictures, denser after events; 0: none
+  StateRequest  states         = {};    ///< additional states
   bool          events         = true;  ///< located, with a restart; false: not located, reported after the step
-  bool          force_unstable = false; ///< runs although the method is unstable with this step
+  bool          force_unstable = false; ///< run even if the method is unstable with this step
   bool          energy         = true;
   bool          allow_large    = false; ///< histories and pictures above 1 GB
   /// [s] Extremes of signals start there; before the beginning: over the whole run.
   double from = -std::numeric_limits<double>::infinity();
 };
 
-/// Time between rows [s]: as asked for, or the fixed step, or with a controlled one a two thousandth of the run.
+/// Time between rows [s]: as requested, or the fixed step, or with a controlled step 1/2000 of the run.
 double output_step(const RunOptions &options);
 
 struct SignalSummary
@@ -72,15 +72,15 @@ struct SignalSummary
   double      min = 0., t_min = 0., max = 0., t_max = 0., final = 0.;
 };
 
-/// Signals at a located event, by number: just before the first event of that instant, and after the last one.
+/// Signals at a located event, by index: just before the first event of that instant, and after the last one.
 struct EventValues
 {
-  double              t = 0.;        ///< [s] where they are valid: not at an event that was not located
+  double              t = 0.;        ///< [s] at which they are valid; differs from the event if that was not located
   std::vector<double> before, after; ///< empty: none
-  std::vector<double> rate;          ///< [1/s] before; nan: no step was made since the motion restarted
+  std::vector<double> rate;          ///< [1/s] before; nan: no step since the last restart
 };
 
-/// What the integration cost.
+/// Cost of the integration.
 struct WorkCounts : IntegrationWork
 {
   long chatter = 0; ///< steps with too many events to locate
@@ -89,10 +89,10 @@ struct WorkCounts : IntegrationWork
 struct EnergySummary
 {
   double input = 0., stored = 0., dissipated = 0., residual = 0.; ///< [J]
-  double exchanged = 0.; ///< [J] that the residual is measured against, see EnergyGuard
+  double exchanged = 0.; ///< [J] reference value for the residual, see EnergyGuard
 };
 
-/// What a run gave; its findings are those of checks before, in and after it.
+/// Results of a run; its findings are those of the checks before, during and after it.
 struct RunResult : RunOutcome
 {
   std::vector<SignalSummary> signals;
@@ -108,9 +108,9 @@ struct RunResult : RunOutcome
   EnergySummary                energy;
   std::vector<double>          picture_times;
   std::vector<Eigen::VectorXd> picture_states;     ///< q
-  std::vector<Eigen::VectorXd> picture_velocities; ///< q' at the same times; empty where they are not known
-  std::vector<Eigen::VectorXd> picture_forces;     ///< p [n_u] on the measures of all elements; empty where not known
-  KeptStates                   states;             ///< those asked for
+  std::vector<Eigen::VectorXd> picture_velocities; ///< q' at the same times; empty if unknown
+  std::vector<Eigen::VectorXd> picture_forces;     ///< p [n_u] on the measures of all elements; empty if unknown
+  KeptStates                   states;             ///< as requested
   Eigen::VectorXd              end_state;          ///< q at the end
   double                       wall_s = 0.;
 };

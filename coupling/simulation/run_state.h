@@ -7,7 +7,7 @@ namespace gestell::coupling
 
 class StateArchive;
 
-void exchange(StateArchive &archive, SignalSummary &summary); ///< but for its name
+void exchange(StateArchive &archive, SignalSummary &summary); ///< everything except its name
 void exchange(StateArchive &archive, EventValues &values);
 void exchange(StateArchive &archive, KeptState &state);
 

@@ -73,7 +73,7 @@ void SignalExtremes::restart(const SignalSample &at)
   see(at);
 }
 
-/// At t in the last step extremes begin to count.
+/// Starts the evaluation of extremes at t in the last step.
 void SignalExtremes::open(double t)
 {
   run_.evaluate(t, probe_);
@@ -134,7 +134,7 @@ void SignalExtremes::append(double t)
 
 void SignalExtremes::divide(double begin, double end)
 {
-  // Not evenly spaced: a motion whose period is a quarter of the step would not be seen.
+  // Not evenly spaced: equal pieces would miss a motion whose period is a quarter of the step.
   constexpr double pieces[] = {0.23, 0.52, 0.74};
   for (const double piece : pieces)
     append(begin + piece * (end - begin));
@@ -154,7 +154,7 @@ void SignalExtremes::refine(double shortest)
   }
 }
 
-/// Of the window that begins there.
+/// Halves the pieces of the window that begins there.
 void SignalExtremes::halve(int first)
 {
   constexpr int added = window - 1;
@@ -179,7 +179,7 @@ void SignalExtremes::keep_the_last()
   begin_ = kept - 1;
 }
 
-/// What a signal ranges over, so far: not below rounding, and a share of what others of its unit do.
+/// Range of a signal so far: at least rounding, and a share of the range of others with its unit.
 double SignalExtremes::range(std::size_t signal) const
 {
   const auto   own    = [&](std::size_t i) { return summaries_[i].max - summaries_[i].min; };
@@ -188,7 +188,7 @@ double SignalExtremes::range(std::size_t signal) const
   for (std::size_t i = 0; i < signals_.size(); ++i)
     if (like_[i] == like_[signal])
       widest = std::max(widest, own(i));
-  constexpr double at_rest  = 1e-6;  // of what others of its unit range over: a signal that moves less does not move
+  constexpr double at_rest  = 1e-6;  // share of the range of signals in its unit: a smaller range is no motion
   constexpr double rounding = 1e-11; // of a value: fourth differences of its rounding are epsilon times that
   return std::max({own(signal), at_rest * widest, rounding * value});
 }
@@ -213,7 +213,7 @@ bool SignalExtremes::rough(int first) const
     double difference = 0.;
     for (int j = 0; j < window; ++j)
       difference += weight[j] * s[j].values[i];
-    // epsilon: an extreme is met to 5e-5 of the range, a digit more than reports have
+    // epsilon: extremes are found to 5e-5 of the range, one digit more than reports print
     constexpr double missed  = 5e-5;
     const double     missing = std::abs(difference) / missed;
     if (counts(i) && missing > summaries_[i].max - summaries_[i].min && missing > range(i))
@@ -245,7 +245,7 @@ void SignalExtremes::see(std::size_t signal, double t, double value)
   }
 }
 
-/// Looks for extremes beyond those seen about three successive samples, inside the last step.
+/// Searches extremes beyond the known ones around three successive samples, inside the last step.
 void SignalExtremes::turn(int middle)
 {
   for (std::size_t i = 0; i < signals_.size(); ++i)
@@ -269,7 +269,7 @@ void SignalExtremes::turn(const Sought &sought, int middle)
     search(sought, middle);
 }
 
-/// Towards zero on one side of it, by half and more.
+/// Whether the signal approaches zero on one side of it, by half or more.
 bool SignalExtremes::nears_zero(const Sought &sought, int middle) const
 {
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0.;
@@ -293,8 +293,8 @@ void SignalExtremes::search(const Sought &sought, int middle)
   for (int k = 0; k < 8 && maximum(p[0], p[1], p[2], top); ++k)
   {
     if (top.t < samples_[begin_].t)
-      return; // in the step before, where it was looked for
-    // A peak that seems to lie outside is looked for at the end, from inside.
+      return; // in the previous step, already searched
+    // A peak that seems to be outside is searched at the end, from inside.
     if (top.t >= p[2].t)
       top.t = 0.25 * p[1].t + 0.75 * p[2].t;
     else if (top.t <= p[0].t)

@@ -27,7 +27,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// What a run keeps in memory [bytes].
+/// Memory of a run's results [bytes].
 struct KeptBytes
 {
   double history, pictures, states;
@@ -50,10 +50,9 @@ KeptBytes kept_bytes(const Machine &machine, const RunOptions &options, std::siz
           8. * machine.size() * (length * state_rate + 1.)};
 }
 
-/// A run keeps its history, pictures and states in memory.
-/// @throws std::invalid_argument if they are larger than 1 GB, or the pictures more than 20 000, and
-/// options.allow_large
-///         does not ask for it
+/// A run stores its history, pictures and states in memory.
+/// @throws std::invalid_argument if they are larger than 1 GB, or the pictures more than 20 000, unless
+/// options.allow_large is set
 void require_size(const Machine &machine, const RunOptions &options, std::size_t n_signals)
 {
   constexpr double most_pictures = 2e4; // chosen: half an hour of a film at 10 pictures a second
@@ -75,7 +74,7 @@ void require_size(const Machine &machine, const RunOptions &options, std::size_t
             " s, or say output.allow_large = true if that is what you want");
 }
 
-/// Asks now and then for the state of a run, so that it could go on from there.
+/// Requests the state of a run from time to time, so that it can be resumed.
 class CheckpointPace
 {
 public:
@@ -124,7 +123,7 @@ EventOptions event_options(const RunOptions &options, double still)
   return {options.events, options.end, still};
 }
 
-/// Of a run that did not get to its first instant nothing is known.
+/// If a run fails before its first instant nothing is known.
 void fail_at_start(const ConvergenceFailure &failure, RunResult &result)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -158,7 +157,7 @@ void try_start(Machine &machine, const InitialState &initial, const RunOptions &
 namespace
 {
 
-/// Gives a motion to what is computed along it afterwards.
+/// Stores the motion for computations along it afterwards.
 class TrajectoryKeeper : public RunObserver
 {
 public:
@@ -175,7 +174,7 @@ private:
   Trajectory           &trajectory_;
   Machine              &machine_;
   const TimeIntegrator &integrator_;
-  double                spacing_; ///< [s] nodes are no farther apart
+  double                spacing_; ///< [s] largest distance of nodes
 };
 
 /// A run under way: the motion and its observers.
@@ -216,7 +215,7 @@ public:
                  const RunCheckpoints *checkpoints);
   void finish();
 
-  /// All that the rest of the run depends on, and what was recorded.
+  /// The complete state for the rest of the run, and its records.
   std::string state()
   {
     StateArchive archive;
@@ -224,7 +223,7 @@ public:
     return archive.bytes();
   }
 
-  /// Goes on from there instead of the begin.
+  /// Resumes from there instead of the start.
   /// @throws std::runtime_error if the state is that of another run
   void go_on(const std::string &state)
   {

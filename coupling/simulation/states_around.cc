@@ -55,7 +55,7 @@ void StatesAround::follow()
   forget();
 }
 
-/// In place of the oldest state of the ring.
+/// Replaces the oldest state of the ring.
 void StatesAround::store(double t, Scale &scale)
 {
   if (scale.ring.size() <= 2 * reach)
@@ -79,7 +79,7 @@ void StatesAround::store(double t, Scale &scale)
   forces_on_measures(machine_, integrator_.local(), state.p);
 }
 
-/// A state leaves the ring: where it lies around an extreme it is kept.
+/// A state leaves the ring: it is kept if it is near an extreme.
 void StatesAround::leave(const KeptState &state, Scale &scale)
 {
   for (std::size_t i = 0; i < wanted_.size(); ++i)
@@ -87,7 +87,7 @@ void StatesAround::leave(const KeptState &state, Scale &scale)
       scale.kept[i].push_back(state);
 }
 
-/// What lies around an extreme that another one has exceeded.
+/// Removes states near an extreme that another one has exceeded.
 void StatesAround::forget()
 {
   for (std::size_t i = 0; i < wanted_.size(); ++i)

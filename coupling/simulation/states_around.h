@@ -14,9 +14,9 @@ namespace gestell::coupling
 class StateArchive;
 
 /**
- * Keeps the states around extremes of signals, of which only the end of a run knows where they are: on three scales,
- * each eight times as coarse as the one before, the last ones in a ring, and of these as many on both sides of an
- * extreme as belong to it.  The finest scale parts the run into 20 000.
+ * Keeps the states around extremes of signals, whose times are known only at the end of a run.  It samples on three
+ * time scales, the finest with 20 000 intervals per run, each of the others eight times as coarse.  Each scale has a
+ * ring buffer of its latest states, and keeps the same number of states before and after each extreme.
  */
 class StatesAround
 {
@@ -24,20 +24,20 @@ public:
   StatesAround(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
                const std::vector<SignalSummary> &signals, KeptStates &kept);
 
-  /// At the start and after a step, when the extremes of the signals are known.
+  /// Called at the start and after a step, when the extremes of the signals are known.
   void follow();
   void finish(); ///< fills KeptStates::around
 
   void exchange(StateArchive &archive);
 
 private:
-  /// A grid of instants and the latest states on it.
+  /// A time grid and the latest states on it.
   struct Scale
   {
     double                              spacing = 0.;
     long                                next    = 0;
     std::vector<KeptState>              ring{};
-    std::vector<std::vector<KeptState>> kept{}; ///< by extreme: left the ring, and lie around it
+    std::vector<std::vector<KeptState>> kept{}; ///< by extreme: states near it that have left the ring
 
     void exchange(StateArchive &archive);
   };
@@ -54,7 +54,7 @@ private:
   KeptStates                       &kept_;
   double                            begin_;
   std::vector<Scale>                scales_;
-  std::vector<double>               seen_; ///< [s] the extremes at the last call
+  std::vector<double>               seen_; ///< [s] times of the extremes at the last call
   LocalState                        local_;
 };
 

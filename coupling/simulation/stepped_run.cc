@@ -22,9 +22,9 @@ namespace
 {
 
 constexpr double no_time    = 1e-9; ///< share of a step that rounding may leave
-constexpr long   first_look = 64;   ///< steps: no run is judged by fewer than the 50 of the longest controlled ones
+constexpr long   first_look = 64;   ///< steps, above the 50 that a controlled run has at least
 
-/// The driver cannot tell, as it knows no end.
+/// The driver cannot predict the loads, because it does not know the end.
 LoadedMotion loaded(Machine &machine, const InitialState &initial, const RunOptions &options,
                     const ResumableSteps &steps)
 {
@@ -38,7 +38,7 @@ LoadedMotion loaded(Machine &machine, const InitialState &initial, const RunOpti
   return load_breakpoints(machine, at, options.end);
 }
 
-/// Nothing is kept of a run that others follow.
+/// Options without a limit of size, because a stepped run stores no history.
 RunOptions without_history(RunOptions options)
 {
   options.allow_large = true;
@@ -73,7 +73,7 @@ SteppedRun::SteppedRun(Machine &machine, const InitialState &initial, const RunO
   checks_new_ = checks_now();
 }
 
-/// Its end is not known.
+/// Begins a run whose end is unknown.
 void SteppedRun::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   motion_.begin(t, q, v, {options_.events, std::numeric_limits<double>::infinity(), still_});
@@ -94,7 +94,7 @@ void SteppedRun::event(const Event &event)
 
 bool SteppedRun::is_now(double t) const
 {
-  constexpr double same_instant = 1e-6; // share of a step within which two instants are told as one
+  constexpr double same_instant = 1e-6; // share of a step within which two instants are reported as one
   return std::abs(t - now_) <= same_instant * method_.step;
 }
 
@@ -108,8 +108,8 @@ void SteppedRun::step()
   look_into_step(target_, on_step_, checks_at(target_));
 }
 
-/// @param history  that held on the last step
-/// @param checks   what they know at t
+/// @param history  valid in the last step
+/// @param checks   their state at t
 void SteppedRun::look_into_step(double t, const Eigen::VectorXd &history, std::string checks)
 {
   steps_.interpolate(t, inside_);
@@ -137,7 +137,7 @@ void SteppedRun::restore_checks(const std::string &state)
     archive(*check);
 }
 
-/// What they know at t inside the last step, whose history is that of the elements now.
+/// State of the checks at t inside the last step, whose history is the present one of the elements.
 std::string SteppedRun::checks_at(double t)
 {
   const std::string now = checks_now();
@@ -166,7 +166,7 @@ void SteppedRun::evaluate(const LocalState &local)
     values_[i] = machine_.evaluate(signals_[i], q_, v_, a_, local);
 }
 
-/// The history is that of its end.
+/// The history is that at its end.
 void SteppedRun::look_behind_step(double t, Eigen::VectorXd on_step)
 {
   const Eigen::VectorXd after = machine_.events().save_history();
@@ -175,7 +175,7 @@ void SteppedRun::look_behind_step(double t, Eigen::VectorXd on_step)
   machine_.events().restore_history(after);
 }
 
-/// The last step reaches to t as well.  Behind an event its dense output is gone, and it is made anew.
+/// Whether the last step also contains t.  After an event its dense output is lost, and it is repeated.
 bool SteppedRun::stays_in_step(double t)
 {
   if (ahead_ && !ended_.empty() && now_ >= end_)
@@ -191,8 +191,8 @@ bool SteppedRun::stays_in_step(double t)
   return true;
 }
 
-/// A step that goes over its events may go over the end, which is looked at within it; without a dense output the run
-/// ends at the instant it has come to.
+/// A step that skips its events may also exceed the end, which is evaluated by dense output; without dense output the
+/// run ends at the instant reached.
 void SteppedRun::end_in_step()
 {
   if (ended_.empty() || end_ > target_ + slack_ || end_ >= steps_.time() - slack_)
@@ -223,7 +223,7 @@ void SteppedRun::go_on_to(double t)
   verify();
 }
 
-/// What was stepped beyond time() counts for nothing.
+/// Parts of steps beyond time() are ignored.
 void SteppedRun::verify()
 {
   const std::string now = ahead_ ? checks_now() : "";
@@ -248,7 +248,7 @@ std::string SteppedRun::finish(const std::string &failure, const std::string &id
   outcome_.stop(id, "", failure);
   for (const auto &check : checks_)
     check->finish(outcome_);
-  machine_.events().follow_history(options_.events); // which checks may have ended
+  machine_.events().follow_history(options_.events); // checks may have ended it
   return failure.empty() ? outcome_.failure : "";
 }
 
@@ -318,7 +318,7 @@ SteppedState SteppedRun::state()
 void SteppedRun::restore(const SteppedState &state)
 {
   const FlushDenormals while_it_starts;
-  const SteppedState   at = state; // it may be the own one
+  const SteppedState   at = state; // it may be a member of this run
   ended_                  = at.ended;
   end_                    = at.t;
   events_.erase(std::remove_if(events_.begin(), events_.end(), [&](const Event &e) { return e.t > at.t; }),

@@ -16,60 +16,60 @@
 namespace gestell::coupling
 {
 
-/// From which a run goes on: q, v [n] and the history of all elements.
+/// State from which a run continues: q, v [n] and the history of all elements.
 struct SteppedState
 {
   double          t = 0.;
   Eigen::VectorXd q, v, history;
-  std::string     ended{};  ///< statement of the switch that ended the run at t; empty: it goes on
-  std::string     checks{}; ///< state of the checks; empty: they start afresh
+  std::string     ended{};  ///< statement of the switch that ended the run at t; empty: it continues
+  std::string     checks{}; ///< state of the checks; empty: they start from scratch
 };
 
 /**
- * A run that goes on piece by piece, as others that are coupled with it demand, with the run's own method, steps and
- * events.  Between two pieces loads may change from outside.
+ * A run in pieces, as required by programs coupled with it, with the run's own method, steps and events.  Between two
+ * pieces loads may be changed from outside.
  *
- * Steps go over the end of a piece as they go over a row of a history: what holds there is told by the dense output.
- * As long as no load changes, they are therefore those of simulate(), however short the pieces are.  Where a load jumps
- * or bends, the integration begins anew from the end of the piece, and what was stepped beyond is forgotten.
+ * Steps do not end at the end of a piece; the values there follow from the dense output, as for rows of a history.  As
+ * long as no load changes, they are therefore those of simulate(), even for short pieces.  If a load or its rate jumps,
+ * the integration restarts at the end of the piece, and the part of the step beyond it is discarded.
  *
- * It is checked as simulate() checks a run; what was stepped beyond and forgotten counts for no check.
+ * It has the same checks as simulate(); they ignore discarded parts of steps.
  */
 class SteppedRun : private RunObserver
 {
 public:
-  /// Starts.  The machine must outlive it.
-  /// @throws std::invalid_argument as check_run() and StabilityGuard::check(); ConvergenceFailure if the machine does
-  /// not start
+  /// Starts the run.  The machine must outlive it.
+  /// @throws std::invalid_argument as check_run() and StabilityGuard::check() do; ConvergenceFailure if the machine
+  /// does not start
   SteppedRun(Machine &machine, const InitialState &initial, const RunOptions &options, std::vector<Signal> signals);
   SteppedRun(const SteppedRun &)            = delete;
   SteppedRun &operator=(const SteppedRun &) = delete;
 
   double time() const { return now_; } ///< [s]
-  /// An instant that is no other than the present one: 1e-6 of a step from it.
+  /// Whether t is the present instant: within 1e-6 of a step.
   bool is_now(double t) const;
 
   /// Integrates to t > time(), or until a switch ends the run.
-  /// @throws ConvergenceFailure, that of a check too; time() is then the last instant reached
+  /// @throws ConvergenceFailure, also from a check; time() is then the last instant reached
   void go_on_to(double t);
-  /// Statement of the switch that ended the run at time(); empty: it goes on.
+  /// Statement of the switch that ended the run at time(); empty: it continues.
   std::string ended() const { return now_ < end_ ? "" : ended_; }
-  /// A load is another one from now on, in value or rate.
+  /// A load or its rate has jumped at this instant.
   void load_jumped();
 
-  /// @throws ConvergenceFailure if the result so far is not a motion.  go_on_to() asks by itself where the run of the
-  /// scene would end, and when the steps have become twice as many.
+  /// @throws ConvergenceFailure if the result so far is not physical.  go_on_to() calls it at the end of the scene's
+  ///   run, and whenever the number of steps has doubled.
   void verify();
-  /// Collects the findings of the checks up to time(); the run continues from a state only.
-  /// @param failure  that ended it; empty: none
-  /// @return         why it is not a motion, if detected only now
+  /// Collects the findings of the checks up to time(); afterwards the run can only be continued from a state.
+  /// @param failure  reason for the end; empty: none
+  /// @return why the result is not physical, if detected only now
   std::string finish(const std::string &failure = "", const std::string &id = "");
 
   const std::vector<double> &values();        ///< of the signals at time()
-  std::vector<Event>         take_events();   ///< up to time(), since they were taken last
-  std::vector<Finding>       take_findings(); ///< of the start and of finish(), since they were taken last
+  std::vector<Event>         take_events();   ///< up to time(), since the last call
+  std::vector<Finding>       take_findings(); ///< of the start and of finish(), since the last call
 
-  /// The present state; the run itself continues from it like a restored one: multistep formulas restart.
+  /// The present state.  The run itself then continues as if restored from it: multistep formulas restart.
   SteppedState state();
   void         restore(const SteppedState &state);
 
@@ -93,26 +93,26 @@ private:
   MethodOptions                method_;
   std::vector<Signal>          signals_;
   Motion                       motion_;
-  ResumableSteps              &steps_; ///< of it
+  ResumableSteps              &steps_; ///< inside the integrator
   RunOutcome                   outcome_;
   std::vector<int>             coordinates_;   ///< that signals read
   std::optional<Accelerations> accelerations_; ///< if a signal reads any
   LocalState                   inside_;        ///< scratch
   Eigen::VectorXd              q_, v_, a_;
   std::vector<double>          values_;
-  LoadedMotion                 loaded_;                         ///< by what is to come in the scene's run
+  LoadedMotion                 loaded_;                         ///< with the future of the scene's run
   double                       now_ = 0., target_ = 0., slack_; ///< [s]
   bool                         ahead_ = false;                  ///< the last step went beyond now_
-  SteppedState                 there_;                          ///< at now_, if it did
-  Eigen::VectorXd              on_step_;                        ///< history that held on the last step
+  SteppedState                 there_;                          ///< state at now_ in this case
+  Eigen::VectorXd              on_step_;                        ///< valid history in the last step
   std::vector<Event>           events_;                         ///< not taken yet
   std::string                  ended_;
   double                       end_ = 0.; ///< [s] where it ended
 
   std::vector<std::unique_ptr<RunObserver>> checks_;
-  std::string                               checks_new_;   ///< at the start
-  std::string                               checks_begin_; ///< what they knew before the step that went beyond now_
-  double                                    still_;        ///< sliding speed of the start, see EventOptions
+  std::string                               checks_new_;   ///< initial state of the checks
+  std::string                               checks_begin_; ///< state of the checks before the step beyond now_
+  double                                    still_;        ///< initial sliding speed, see EventOptions
   long                                      next_look_;    ///< number of steps at which the motion is verified
 };
 

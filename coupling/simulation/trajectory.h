@@ -7,15 +7,15 @@
 namespace gestell::coupling
 {
 
-/// A motion at an instant.
+/// State of a motion at an instant.
 struct MotionNode
 {
   double          t = 0.;
   Eigen::VectorXd q, v; // [n]
 };
 
-/// The motion between two events, smooth: nodes at the ends of steps, and the guards whose transitions end it, in
-/// order.
+/// The smooth motion between two events: nodes at the ends of steps, and the event functions whose transitions end it,
+/// in order.
 struct SmoothPiece
 {
   std::vector<MotionNode> nodes;
@@ -23,19 +23,19 @@ struct SmoothPiece
 };
 
 /**
- * The motion of a run as it was made, kept for what is computed along it afterwards.
+ * The computed motion of a run, stored for computations along it.
  *
- * Steps that are long against what moves in them are kept by nodes inside, from the dense output.
+ * Steps that are long compared with the motion have additional nodes inside, from the dense output.
  */
 class Trajectory
 {
 public:
-  /// The start, after the integrator began; history of the elements as it was set there.
+  /// Stores the start, after the integrator began, with the initial history of the elements.
   void begin(const Instant &at, const Eigen::VectorXd &history);
-  /// A step was made, or the part of it up to an event.
+  /// Stores a step, or its part up to an event.
   /// @param spacing  [s] largest distance of nodes
   void step(const TimeIntegrator &integrator, double spacing);
-  /// The transition of a guard ends the step that was made last.
+  /// The transition of an event function ends the last step.
   void guard(int number);
 
   const std::vector<SmoothPiece> &pieces() const { return pieces_; }

@@ -12,16 +12,16 @@ namespace gestell::coupling
 class TimeIntegrator;
 
 /**
- * Follows signals of a run that have no rows in its history: value at the start and at the end, extremes between.
+ * Monitors signals of a run without rows in its history: value at the start and at the end, and extremes.
  *
- * They are compared with sizes of the machine, so that every eighth step is enough: with the ten and more steps in a
- * period that a vibration needs, a sampled extreme is below the true one by less than a factor of two.
+ * The values are compared with scales of the machine, so that sampling every eighth step suffices: with at least ten
+ * steps per period of a vibration, a sampled extreme is too small by less than a factor of two.
  */
 class WatchedValues : public RunObserver
 {
 public:
-  /// @param watched      gets the values; null: nothing to do
-  /// @param coordinates  that its signals read
+  /// @param watched      receives the values; null: not active
+  /// @param coordinates  read by its signals
   WatchedValues(const Machine &machine, const TimeIntegrator &integrator, WatchedSignals *watched,
                 std::vector<int> coordinates);
 

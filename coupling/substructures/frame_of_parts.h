@@ -13,7 +13,7 @@
 namespace gestell::coupling
 {
 
-/// Placement of a part:  x = at + Q x_part,  Q orthogonal, with det Q = -1 a mirror image.
+/// Placement of a part:  x = at + Q x_part,  Q orthogonal; det Q = -1 for a mirror image.
 struct Placement
 {
   Eigen::Matrix3d Q  = Eigen::Matrix3d::Identity();
@@ -26,7 +26,7 @@ struct FramePart
   std::string             name;
   fem::FrameSpecification geometry; ///< in the part's own coordinates
   Placement               placement;
-  std::string             place; ///< "press.toml:12: frame.part.crown", heads messages
+  std::string             place; ///< "press.toml:12: frame.part.crown", prefix of messages
 };
 
 enum class JointKind
@@ -37,7 +37,7 @@ enum class JointKind
   tie_rod  ///< a tension bar between two interfaces
 };
 
-/// Springs and dampers along orthonormal axes, at each of several points, with springs against rotation.
+/// Springs and dampers along orthonormal axes at each of several points, and springs for rotation.
 struct BoltedJoint
 {
   Eigen::Matrix3d              axes               = Eigen::Matrix3d::Identity(); ///< columns
@@ -74,15 +74,15 @@ struct FrameJoint
   std::string             name;
   JointKind               kind = JointKind::weld;
   std::array<JointEnd, 2> between;
-  /// From the first part to the second, across their faces; zero: not known.  The joint is closed while it is pressed.
+  /// From the first part to the second, normal to their faces; zero: unknown.  The joint is closed under compression.
   Eigen::Vector3d       normal = Eigen::Vector3d::Zero();
   BoltedJoint           bolts;
   TieRod                rod;
-  std::optional<double> tolerance;    ///< [m] distance of the interfaces' nodes; none: by the size of the parts
-  bool                  keep = false; ///< the first interface carries something of the mechanism, too
+  std::optional<double> tolerance;    ///< [m] distance of the interfaces' nodes; none: from the size of the parts
+  bool                  keep = false; ///< the first interface also carries a part of the mechanism
   std::string           place;
 
-  /// Whether the joint may open, which a linear frame cannot model.
+  /// Whether the joint can open, which a linear frame cannot model.
   bool closes() const
   {
     return kind == JointKind::contact || (kind == JointKind::bolts && normal != Eigen::Vector3d::Zero());
@@ -94,14 +94,14 @@ struct FrameOfParts
 {
   std::vector<FramePart>  parts;
   std::vector<FrameJoint> joints;
-  fem::ModalRatios        modal_damping_ratio; ///< zeta of the modes of the joined frame, beside what parts have
-  bool                    all_modes = false;   ///< of the joined parts; otherwise as many as the tolerance asks for
+  fem::ModalRatios        modal_damping_ratio; ///< zeta of modes of the joined frame, added to that of the parts
+  bool                    all_modes = false;   ///< retain all modes of the parts; else by the tolerance
   std::string             place;
 
   const FramePart *find(const std::string &part) const; ///< null if there is none
 };
 
-/// Interfaces of the joined frame, "crown.bearing": those of no joint, and the first ones of joints that keep them.
+/// Interfaces of the joined frame, "crown.bearing": those without a joint, and the first ones of joints that keep them.
 std::vector<std::string> kept_interfaces(const FrameOfParts &frame);
 
 /// The same with their names in the frame.

@@ -29,7 +29,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What static shapes of the basis leave of F.
+/// Flexibility F of the modes left out, without the part that static shapes of the basis represent.
 MatrixXd beside_shapes(const ReducedFrame &part)
 {
   const Index    n_1 = part.n_interface, k = part.omega0.size() - part.n_fixed_modes;
@@ -37,8 +37,8 @@ MatrixXd beside_shapes(const ReducedFrame &part)
   return part.left_out - M_1X * part.omega0.tail(k).cwiseAbs2().cwiseInverse().asDiagonal() * M_1X.transpose();
 }
 
-/// The lowest frequency that is left out [rad/s]: that of the next mode by the static shapes in their place, which come
-/// near to it from above, or else the highest one kept.
+/// Estimate of the lowest frequency left out [rad/s]: that of the lowest static shape, which is slightly above the next
+/// mode, or else the highest frequency kept.
 double lowest_left_out(const ReducedFrame &part)
 {
   const VectorXd &omega = part.omega0;
@@ -54,18 +54,18 @@ bool keeps_all(const ReducedFrame &part)
 }
 
 /**
- * How much too high the frequencies of the joined frame are because parts keep some of their fixed-interface modes
- * only.  To first order, a mode phi (phi^T M phi = 1) of frequency omega moves the interfaces of part i by q_1, and its
- * modes left out, of frequencies omega_j >= omega_c and coupling masses m_j, lower it by
+ * Relative error by which the frequencies of the joined frame are too high because parts keep only some of their
+ * fixed-interface modes. To first order, a mode phi (phi^T M phi = 1) of frequency omega moves the interfaces of part i
+ * by q_1. The modes left out, of frequencies omega_j >= omega_c and coupling masses m_j, lower omega by
  *
  *     d(omega)/omega = 1/2 sum omega^2 (m_j^T q_1)^2 / (omega_j^2 - omega^2) <= 1/2 omega^2 q_1^T F q_1 / (1 - r^2),
  *     F = sum m_j m_j^T / omega_j^2,   r = omega / omega_c.
  *
- * Static shapes X of the inertia in their place take F away and leave r^4 of it.  omega_c is taken as the highest
- * frequency kept, or as the lowest of the static shapes, which comes near to that of the next mode from above.  Beyond
- * it, or of parts that do not tell F, nothing is known: NaN.
+ * Static shapes X of the inertia in their place remove F and leave r^4 of it. omega_c is the highest frequency kept or
+ * the lowest of the static shapes, which is slightly above the next mode. Above omega_c, and for parts without F, the
+ * error is unknown: NaN.
  *
- * @param omega, V  modes of the joined frame [p], [n_j x p].
+ * @param omega,  V  modes of the joined frame [p], [n_j x p].
  * @return          [p], >= 0.
  *
  * Source: docs/theory/substructures.md (6), (7).
@@ -103,7 +103,7 @@ std::vector<fem::Interface> kept(const FrameOfParts &frame, const PartUnion &par
   for (fem::Interface interface : parts.interfaces)
     if (std::find(names.begin(), names.end(), interface.name) != names.end())
     {
-      interface.face = {}; // what its fields are to the joint, modes are to the frame
+      interface.face = {}; // modes replace the fields of the joint
       interface.renumber([&](int i) { return column[std::size_t(i)]; });
       interfaces.push_back(std::move(interface));
     }
@@ -197,7 +197,7 @@ std::string force_text(double newton)
   return rounded(newton * unit.factor) + " " + unit.unit;
 }
 
-/// What rods do to joints, and the joints that they do not close.
+/// Adds statements on the clamping forces of joints, and warns of joints without any.
 void tell_preloads(ReducedFrame &whole, const FrameOfParts &frame, const std::vector<JointPreload> &preloads)
 {
   for (std::size_t j = 0; j < frame.joints.size(); ++j)
@@ -233,12 +233,12 @@ std::string moved_part(const VectorXd &motion, const std::vector<ReducedFrame> &
   return frame.parts[std::size_t(std::max_element(energy.begin(), energy.end()) - energy.begin())].name;
 }
 
-/// Refuses joints that let a part move freely against the others: a motion without energy, V^T M V = E, that is no
-/// rigid one of the whole.
+/// Refuses joints that let a part move freely relative to the others: a motion without energy, V^T M V = E, other than
+/// a rigid motion of the whole.
 void require_held_parts(const DenseModes &modes, const MatrixXd &M, const MatrixXd &rigid,
                         const std::function<std::string(const VectorXd &)> &part_moved_by, const std::string &place)
 {
-  constexpr double free_share = 1e-8; // of the highest frequency: motions without energy, but for rounding
+  constexpr double free_share = 1e-8; // of the highest frequency: motions without energy, up to rounding
   const Index      n_free     = (modes.omega.array() <= free_share * modes.omega.maxCoeff()).count();
   const MatrixXd   free       = modes.V.leftCols(n_free);
   const MatrixXd   rest = free - rigid * (rigid.transpose() * M * rigid).ldlt().solve(rigid.transpose() * M * free);
@@ -250,7 +250,7 @@ void require_held_parts(const DenseModes &modes, const MatrixXd &M, const Matrix
                                   "in all directions and against rotation");
 }
 
-/// Of the modes that parts leave out.
+/// States the errors by the modes that parts leave out.
 void tell_errors(ReducedFrame &whole, const VectorXd &omega, const VectorXd &errors)
 {
   const double limit = whole.frequency_limit_hz;
@@ -274,7 +274,8 @@ MatrixXd stayed(const MatrixXd &rows, const WeldedCoordinates &welded)
   return kept_rows;
 }
 
-/// With the pattern of another matrix, too: what mass connects belongs together, as modes with their interface.
+/// A with zeros at further entries of `other`: coordinates that only mass couples stay together, as modes and
+/// interface.
 Eigen::SparseMatrix<double> with_pattern(const MatrixXd &A, const MatrixXd &other)
 {
   std::vector<Eigen::Triplet<double>> entries;

@@ -16,9 +16,9 @@ namespace gestell::coupling
 /// Parts of a frame in one set of coordinates: interfaces, and the modes of the parts.
 struct JoinedParts
 {
-  fem::FrameMatrices        matrices; ///< its interfaces are those that are kept
-  ReducedFrame              facts;    ///< what is known of the whole: sizes, mass, notes; no matrices
-  Eigen::VectorXd           left_out; ///< [p] of its frequencies: errors_by_modes_left_out()
+  fem::FrameMatrices        matrices; ///< its interfaces are the retained ones
+  ReducedFrame              facts;    ///< facts about the whole: sizes, mass, notes; no matrices
+  Eigen::VectorXd           left_out; ///< [p] errors of its frequencies: errors_by_modes_left_out()
   std::vector<JointPreload> preloads;
 };
 
@@ -32,25 +32,25 @@ struct JoinedParts
  *     M = G^T diag(M_i) G + rods,   C = G^T (diag(C_i) + sum R^T K R) G,   R q the motion of the second end against
  *     the first at the point of the joint.
  *
- * q = 0 is the frame with tightened rods.  A joint's force on its second part is the rest of the equation of motion
- * beyond its springs:
+ * q = 0 is the frame with tightened rods.  A joint's force on its second part is the residual of the equation of motion
+ * without its springs:
  *
  *     f_2 = M_2. q'' + B_2. q' + C_2. q - f_g + preload,
  *
- * rows of the second interface; loads that the mechanism has there act on the first part.
+ * in the rows of the second interface; loads of the mechanism there act on the first part.
  *
- * @param parts  where they stand (placed()), in the order of the description.
- * @throws std::invalid_argument, headed with the joint's place: unknown ends, joints of a part with itself, two joints
- *         of one interface, interfaces that do not meet, parts that nothing joins.
+ * @param parts  in their positions (placed()), in the order of the description.
+ * @throws std::invalid_argument with the location of the joint: unknown ends, joints of a part with itself, two joints
+ *         of one interface, interfaces too far apart, parts without a joint.
  *
  * Source: Craig & Bampton 1968; docs/theory/substructures.md.
  */
 JoinedParts join_parts(const std::vector<ReducedFrame> &parts, const FrameOfParts &description);
 
-/// How the joined frame is reduced to the interfaces that it keeps: by the options of its parts, or with all modes.
+/// Options for the reduction of the joined frame to the retained interfaces: those of its parts, or all modes.
 ReductionOptions joined_options(const FrameOfParts &frame, const JoinedParts &joined, ReductionOptions options);
 
-/// The joined frame after its reduction, with what is known of its parts.
+/// The joined frame after its reduction, with the known facts about its parts.
 ReducedFrame completed(ReducedFrame reduced, const JoinedParts &joined);
 
 } // namespace gestell::coupling

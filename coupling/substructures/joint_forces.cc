@@ -40,7 +40,7 @@ struct ForceRows
   MatrixXd under_acceleration; // [6 x 3]
 };
 
-/// What the second interface needs: rows of the matrices, or those of bolts.
+/// Rows of the force on the second interface: from the matrices, or from the bolts.
 ForceRows rows_of(const FrameJoint &joint, const PartUnion &parts, const SprungUnion &all, const JointSpring &spring,
                   const MatrixXd &G)
 {
@@ -77,7 +77,7 @@ fem::FrameOutput rod_force(const FrameJoint &joint, const JointSpring &spring, c
   return output;
 }
 
-/// Weights of the force that presses the joint: what acts on the second part away from the first.
+/// Weights of the force that presses the joint: the component that pushes the second part away from the first.
 Vector6 pressing(const FrameJoint &joint)
 {
   Vector6 weights   = Vector6::Zero();
@@ -85,8 +85,8 @@ Vector6 pressing(const FrameJoint &joint)
   return weights;
 }
 
-/// C with the rigid motions that no support resists held by springs of its own size, which forces in equilibrium do not
-/// feel.
+/// C with springs of its own size against the rigid motions that no support resists; forces in equilibrium do not load
+/// them.
 MatrixXd held(const MatrixXd &C, const MatrixXd &rigid)
 {
   const double               size = C.diagonal().mean();

@@ -23,19 +23,19 @@ struct SprungUnion
 SprungUnion sprung(const FrameOfParts &frame, const PartUnion &parts);
 
 /**
- * The static preload of every joint: the parts, with bolts and without the elasticity of rods, deform under the forces
- * with which rods pull,
+ * The static preload of every joint: the parts, with bolts and without the elasticity of rods, deform under the tensile
+ * forces of the rods,
  *
  *     (C - sum R_r^T K_r R_r) q_0 = f_0,    preload = C_2. q_0 - f_0   at the second interface,
  *
- * rods being held at their forces while they are tightened.
+ * which are constant during tightening.
  *
- * @param rigid  [n_j x 6] rigid motions of the joined frame, along which f_0 has no part.
+ * @param rigid  [n_j x 6] rigid-body modes of the joined frame; f_0 does no work along them.
  */
 std::vector<JointPreload> preloads_of(const FrameOfParts &frame, const PartUnion &parts, const SprungUnion &sprung,
                                       const Eigen::MatrixXd &G, const Eigen::MatrixXd &rigid);
 
-/// Rows on q_j of the forces that joint_outputs() names.
+/// Rows on q_j of the forces listed in joint_outputs().
 std::vector<fem::FrameOutput> forces_of(const FrameJoint &joint, const PartUnion &parts, const SprungUnion &sprung,
                                         const JointSpring &spring, const Eigen::MatrixXd &G,
                                         const JointPreload &preload);

@@ -12,7 +12,7 @@ struct JointPreload
 {
   std::string                 joint;
   Eigen::Matrix<double, 6, 1> on_second = Eigen::Matrix<double, 6, 1>::Zero(); ///< force and moment [N, N m]
-  double                      pressed   = 0.; ///< [N] normal force of a joint that closes, with its own bolts
+  double                      pressed   = 0.; ///< [N] compressive normal force of a contact joint, with its own bolts
 };
 
 } // namespace gestell::coupling

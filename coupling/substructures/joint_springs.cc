@@ -47,7 +47,7 @@ JointSpring bolted(const FrameJoint &joint, const PartUnion &parts)
           of_bolts(joint.bolts, point, joint.bolts.damping, joint.bolts.rotational_damping)};
 }
 
-/// From the first end to the second [m].
+/// Vector from the first end to the second [m].
 Vector3d span(const FrameJoint &joint, const PartUnion &parts)
 {
   return position_of(parts.at(joint.between[1])) - position_of(parts.at(joint.between[0]));

@@ -9,11 +9,12 @@ namespace gestell::coupling
 {
 
 /**
- * Springs and dampers between two interfaces:  force on the second  f = -(K r + D r'),  r = R q its motion against the
- * first.
+ * Springs and dampers between two interfaces:  force on the second  f = -(K r + D r'),  where r = R q is its motion
+ * relative to the first.
  *
  * Bolts: r [6] at the point x midway between the two interfaces; each bolt at x_i with stiffnesses k along the axes A
- * gives K += H_i^T A diag(k) A^T H_i,  H_i the motion of x_i with the point.  Tie rod: r its elongation, K = E A / L.
+ * gives K += H_i^T A diag(k) A^T H_i,  with H_i the motion of x_i. Tie rod: r its elongation, K = E
+ * A / L.
  */
 struct JointSpring
 {

@@ -20,22 +20,22 @@ struct PartUnion
   std::vector<Eigen::Index>     first;             ///< coordinate of each part
 
   Eigen::Index          size() const { return M.rows(); }
-  const fem::Interface &at(const JointEnd &end) const; ///< one that require_joints() has found
+  const fem::Interface &at(const JointEnd &end) const; ///< must exist, see require_joints()
 };
 
-/// @param parts  where they stand, see placed().
+/// @param parts  in their positions, see placed().
 PartUnion beside_each_other(const std::vector<ReducedFrame> &parts);
 
 /// Motions ux ... rz of an interface [6 x n], which has all six.
 Eigen::MatrixXd motions_of(const fem::Interface &interface, Eigen::Index n);
 
-/// The same, and below them the fields over its face [6 + n_fields x n].
+/// The same, followed by the fields over its face [6 + n_fields x n].
 Eigen::MatrixXd all_motions_of(const fem::Interface &interface, Eigen::Index n);
 
 /// Position [m].
 Eigen::Vector3d position_of(const fem::Interface &interface);
 
-/// q of the rigid motions ux ... rz of the whole about a point [n x 6]; modes of parts rest.
+/// q of the rigid-body motions ux ... rz of the whole about a point [n x 6]; modes of parts are zero.
 Eigen::MatrixXd rigid_motions_of(const PartUnion &parts, const Eigen::Vector3d &centre);
 
 } // namespace gestell::coupling

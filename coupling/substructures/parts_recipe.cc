@@ -70,7 +70,7 @@ void add_tie_rod(Ingredients &recipe, const TieRod &value)
   recipe.add("length", length);
   recipe.add("damping", damping);
   recipe.add("prestress", prestress);
-  recipe.add("material", material); // the frame tells it
+  recipe.add("material", material); // part of the facts of the frame
 }
 
 void add_joint(Recipe &recipe, const FrameJoint &value)

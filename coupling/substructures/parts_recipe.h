@@ -17,7 +17,7 @@ Recipe recipe_of(const FrameOfParts &frame, const ReductionOptions &options);
 /// Reduces a part in its own coordinates.
 using PartReduction = std::function<ReducedFrame(const FramePart &)>;
 
-/// One frame a part, in their order; of parts with equal recipes the first is reduced.
+/// One frame per part, in their order; among parts with equal recipes only the first is reduced.
 std::vector<ReducedFrame> equal_parts_once(const FrameOfParts &frame, const ReductionOptions &options,
                                            const PartReduction &reduce);
 

@@ -35,7 +35,7 @@ bool is_absent(const fem::Interface &interface, int first)
   return std::all_of(&interface.coordinate[first], &interface.coordinate[first] + 3, [](int i) { return i < 0; });
 }
 
-/// Rows of three motions of an interface: motion_part = turn motion.
+/// Rotates three rows of an interface: motion_part = turn motion.
 void turn_three(MatrixXd &S, const fem::Interface &interface, int first, const Matrix3d &turn)
 {
   if (is_absent(interface, first))

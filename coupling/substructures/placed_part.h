@@ -12,7 +12,7 @@ namespace gestell::coupling
  *
  *     u_part = Q^T u,   theta_part = det(Q) Q^T theta,   q_part = S q,   M <- S^T M S,   f_g <- S^T f_g Q^T
  *
- * (rotations are axial vectors: a mirror turns them about).
+ * (rotations are axial vectors: a mirror image reverses them).
  *
  * @param part  reduced in its own coordinates.
  * @throws std::invalid_argument if it is rotated while some DOFs of an interface are fixed.

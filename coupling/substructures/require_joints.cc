@@ -86,7 +86,7 @@ void require_alike(const FrameOfParts &frame, const FrameJoint &joint)
                             "; give both coupling = \"flexible\" of one 'degree'");
 }
 
-/// Fields of a face that nothing holds would be coordinates without a meaning.
+/// Refuses faces with fields that no joint uses: their coordinates would have no meaning.
 void require_joined_faces(const FrameOfParts &frame)
 {
   std::set<std::string> joined;
@@ -144,7 +144,7 @@ std::string text_of(const Eigen::Vector3d &x)
   return "(" + shown(x[0]) + ", " + shown(x[1]) + ", " + shown(x[2]) + ") m";
 }
 
-/// Of an interface in the frame, if it is known.
+/// Position of an interface in the frame, if it is known.
 std::optional<Eigen::Vector3d> place_of(const FrameOfParts &frame, const JointEnd &end)
 {
   const FramePart &part = *frame.find(end.part);

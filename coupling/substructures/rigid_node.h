@@ -5,7 +5,7 @@
 namespace gestell::coupling
 {
 
-/// Motions of a node at x that is fixed to one at x0:  u = u0 + theta x (x - x0), as a matrix.
+/// Motion of a node at x that is rigidly connected to one at x0:  u = u0 + theta x (x - x0), as a matrix.
 inline Eigen::Matrix<double, 6, 6> carried(const Eigen::Vector3d &x0, const Eigen::Vector3d &x)
 {
   const Eigen::Vector3d       r = x - x0;

@@ -52,7 +52,7 @@ MatrixXd displacement_at(const fem::Interface &interface, const Vector3d &x)
   return H;
 }
 
-/// Points of the rectangle around a face that tell polynomials of its degree apart.
+/// Points of the rectangle around a face that determine polynomials of its degree.
 std::vector<Vector3d> samples_of(const fem::PlaneFace &face)
 {
   std::vector<Vector3d> points;
@@ -88,7 +88,7 @@ MatrixXd following(const FrameJoint &joint, const fem::Interface &first, const f
   return other.colPivHouseholderQr().solve(one);
 }
 
-/// What the faces of a joint say of it, where they are plane.
+/// Requires a normal of the joint that agrees with its faces, if these are plane.
 void require_facing(const FrameJoint &joint, const fem::Interface &first, const fem::Interface &second)
 {
   if (!joint.closes())

@@ -14,11 +14,11 @@ namespace gestell::coupling
 struct WeldedCoordinates
 {
   Eigen::MatrixXd  G;    // [n x n_j]
-  std::vector<int> kept; ///< [n] column of a coordinate of q in G, -1: it moves with others
+  std::vector<int> kept; ///< [n] column of a coordinate of q in G, -1: it is eliminated
 };
 
 /// @throws std::invalid_argument if interfaces are farther apart than the tolerance of their joint; without one a
-/// thousandth of the longest distance of interfaces or points of the two parts.
+/// thousandth of the longest distance between interfaces or points of the two parts.
 WeldedCoordinates weld(const FrameOfParts &frame, const PartUnion &parts, const std::vector<ReducedFrame> &of);
 
 } // namespace gestell::coupling

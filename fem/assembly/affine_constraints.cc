@@ -59,7 +59,7 @@ AffineConstraints::AffineConstraints(const Lists &lists)
 AffineConstraints::Lists AffineConstraints::of_nodes(const std::vector<int> &nodes) const
 {
   Lists            lists;
-  std::vector<int> number(n_coordinates_, -1); // among those of the lists
+  std::vector<int> number(n_coordinates_, -1); // position in the lists
   const auto       number_of = [&](int coordinate)
   {
     if (number[coordinate] < 0)

@@ -22,7 +22,7 @@ struct MultipointConstraints
 {
   explicit MultipointConstraints(int n_nodes);
 
-  std::vector<char>          held;     ///< [3 n_nodes] displacement is zero
+  std::vector<char>          held;     ///< [3 n_nodes] displacement is fixed to zero
   std::map<int, std::string> holder;   ///< name of the support of a node, for messages
   std::vector<int>           tie_of;   ///< [3 n_nodes] index into ties, or -1
   std::vector<Combination>   ties;     ///< tied displacement as a combination of other values, see closed_ties()
@@ -46,7 +46,7 @@ public:
   explicit AffineConstraints(const MultipointConstraints &constraints);
 
   /// The same for a subset of nodes, as plain lists for sending: free coordinates first, in the order of the nodes;
-  /// ties in the order of the whole, so that project() sums in the same order.
+  /// ties in the order of the whole frame, so that project() sums in the same order.
   struct Lists
   {
     int                 n_free = 0, n_coordinates = 0;

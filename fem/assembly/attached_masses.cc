@@ -25,7 +25,7 @@ std::string head(const AttachedMass &mass)
   return mass.place.empty() ? owner : mass.place + ": " + owner;
 }
 
-/// A rigid body has moments J >= 0 of which none exceeds the sum of the two others.
+/// Requires moments of a rigid body: J >= 0, none larger than the sum of the two others.
 void require_inertia(const AttachedMass &mass)
 {
   const Eigen::Matrix3d &J        = mass.inertia;
@@ -89,7 +89,7 @@ std::vector<InterfaceSpecification> nodes_of_masses(const std::vector<AttachedMa
 
 const Interface &node_of(const AttachedMass &mass, const std::vector<Interface> &nodes)
 {
-  // Nodes of masses stand before those of interfaces, which may be called alike.
+  // Nodes of masses precede nodes of interfaces, which may have the same names.
   const bool own    = mass.interface.empty();
   const auto called = [&](const Interface &node) { return node.name == (own ? mass.name : mass.interface); };
   return own ? *std::find_if(nodes.begin(), nodes.end(), called) : *std::find_if(nodes.rbegin(), nodes.rend(), called);
@@ -104,7 +104,7 @@ MassProperties properties_of(const AttachedMass &mass, const Interface &node)
 namespace
 {
 
-/// Motions of the centre of the mass by those of its node.
+/// Motions of the centre of the mass as a function of the motions of its node.
 Eigen::Matrix<double, 3, 6> motions_of_centre(const AttachedMass &mass, const Interface &node)
 {
   return rigid_motions_of_point(mass.centre.value_or(node.position), node.position);

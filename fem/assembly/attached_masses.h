@@ -9,14 +9,14 @@
 namespace gestell::fem
 {
 
-/// @throws std::invalid_argument for values impossible for a rigid body and for an unknown interface, with the nearest
-/// names.
+/// @throws std::invalid_argument for values impossible for a rigid body and for an unknown interface, with the most
+///   similar names.
 void require_valid(const std::vector<AttachedMass> &masses, const std::vector<InterfaceSpecification> &interfaces);
 
 /// Nodes at the centres of the masses with their own surfaces, coupled to these like interfaces.
 std::vector<InterfaceSpecification> nodes_of_masses(const std::vector<AttachedMass> &masses);
 
-/// The node that carries it, among those of masses and then of interfaces.
+/// The node that carries the mass, among those of masses and then of interfaces.
 const Interface &node_of(const AttachedMass &mass, const std::vector<Interface> &nodes);
 
 /// The rigid body of an attached mass.

@@ -42,7 +42,7 @@ Rows6 averaging(const CoupledPatch &coupled, const QuadraticMesh &mesh)
   return Matrix6(R.transpose() * S_R).ldlt().solve(Eigen::MatrixXd(S_R.transpose()));
 }
 
-/// Motion of the centroid from that of the node: [ I  -(x_c - x0)x ; 0  I ].
+/// Motion of the centroid as a function of the motion of the node: [ I  -(x_c - x0)x ; 0  I ].
 Matrix6 node_to_centroid(const CoupledPatch &coupled)
 {
   const Eigen::Vector3d &centroid = coupled.patch.centroid;
@@ -81,7 +81,7 @@ void bisect(const CoupledPatch &coupled, const QuadraticMesh &mesh, std::vector<
   bisect(coupled, mesh, std::vector<int>(middle, nodes.end()), groups);
 }
 
-/// Columns in the order of QR with column pivoting, rotations measured in `length`: the first six make a good block.
+/// Order of columns by QR with column pivoting, with rotations scaled by `length`: the first six are well conditioned.
 std::vector<int> pivot_order(const Rows6 &W, double length)
 {
   Rows6 scaled = W;
@@ -91,8 +91,8 @@ std::vector<int> pivot_order(const Rows6 &W, double length)
   return {order.data(), order.data() + order.size()};
 }
 
-/// The middles of the triangle in the midst of a group; its three nodes share their neighbours in the mesh, so that
-/// the dense rows of the six pivots fill C least.  Empty if no triangle lies in the group.
+/// The middle nodes of the central triangle of a group; its three nodes share their neighbours in the mesh, so that the
+/// dense rows of the six pivots cause the least fill in C. Empty if no triangle lies in the group.
 std::vector<int> central_triangle(const CoupledPatch &coupled, const QuadraticMesh &mesh, const std::vector<int> &nodes)
 {
   const std::vector<int> &all   = coupled.patch.nodes;
@@ -169,7 +169,7 @@ std::vector<Group> make_groups(const CoupledPatch &coupled, const QuadraticMesh 
   return groups;
 }
 
-/// The inner coordinates m of all groups in terms of values; the six eliminated ones are  m_e = W_e^-1 (p - W_r m_r).
+/// The inner coordinates m of all groups as combinations of values; six are eliminated: m_e = W_e^-1 (p - W_r m_r).
 std::vector<Combination> inner_coordinates(const std::vector<Group> &groups, const CoupledPatch &coupled, int first,
                                            int first_inner)
 {

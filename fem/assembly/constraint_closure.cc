@@ -28,7 +28,7 @@ void require_end(int tie, const std::vector<int> &tie_of, const std::vector<Comb
   state[tie] = 2;
 }
 
-/// No value of it is held or tied.
+/// Whether no value of the combination is fixed or tied.
 bool ends_free(const Combination &tie, const std::vector<char> &held, const std::vector<int> &tie_of)
 {
   return std::none_of(tie.begin(), tie.end(),

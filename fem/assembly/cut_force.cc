@@ -77,7 +77,7 @@ std::vector<char> nodes_below(const QuadraticMesh &mesh, const std::vector<doubl
   throw std::invalid_argument(message.str());
 }
 
-/// Share of a tetrahedron that lies above a plane, by the distances of its corners from it.
+/// Share of a tetrahedron above a plane, from the distances of its corners to the plane.
 double share_above(std::array<double, 4> d)
 {
   std::sort(d.begin(), d.end(), std::greater<double>());
@@ -124,7 +124,7 @@ FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, co
   const std::vector<char>   below  = nodes_below(mesh, height);
 
   bool            divides = false;
-  double          mass    = 0.; // above the plane, less that of the nodes whose loads the row contains
+  double          mass    = 0.; // above the plane, minus that of nodes whose loads the row contains
   Eigen::VectorXd row     = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {

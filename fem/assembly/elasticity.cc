@@ -48,7 +48,7 @@ CellStiffness tetrahedron_stiffness(const QuadraticMesh &mesh, int cell, const M
   return C;
 }
 
-/// By quadrature, for cells of n nodes whose geometry is interpolated as their displacements are.
+/// By quadrature, for isoparametric cells of n nodes.
 template <int n>
 CellStiffness isoparametric_stiffness(const Eigen::Matrix<double, 3, n> &X, const ReferenceCell::Points &points,
                                       const Material &material)

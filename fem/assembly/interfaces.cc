@@ -45,7 +45,7 @@ Eigen::Matrix3Xd points_of(const SurfacePatch &patch, const QuadraticMesh &mesh)
   return points;
 }
 
-/// Of the skin, outward; zero where its triangles do not all look one way.
+/// Outward normal of a plane patch; zero if its triangles have different normals.
 Eigen::Vector3d plane_normal(const SurfacePatch &patch, const QuadraticMesh &mesh)
 {
   constexpr double bent   = 1e-9; // 1 - cos of 0.0026 degrees
@@ -58,7 +58,7 @@ Eigen::Vector3d plane_normal(const SurfacePatch &patch, const QuadraticMesh &mes
                                                : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
-/// Where faces do not lie in one plane: the columns of `axes` are half the sides of the box around them.
+/// For faces that are not coplanar: the columns of `axes` are half the sides of their bounding box.
 void draw_box(CoupledPatch &coupled, const QuadraticMesh &mesh)
 {
   const Eigen::AlignedBox3d box = box_of(coupled, mesh);

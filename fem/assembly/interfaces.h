@@ -42,7 +42,7 @@ void shrink_to_point(CoupledPatch &coupled, const QuadraticMesh &mesh);
  */
 CoupledPatch nearest_node(const InterfaceSpecification &interface, const Mesh &mesh, const QuadraticMesh &quadratic);
 
-/// Warnings that list nodes and points of a surface farther than `tolerance` [m] from the requested position; points of
+/// Warnings with the nodes and points of a surface farther than `tolerance` [m] from the requested position; points of
 /// a surface only beyond a quarter of the width of the triangles around them.
 std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interfaces, double tolerance);
 

@@ -26,7 +26,7 @@ Vector3d nearest_on_segment(const Vector3d &x, const Vector3d &a, const Vector3d
   return a + std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0., 1.) * (b - a);
 }
 
-/// The foot of the perpendicular if it lies inside, else the nearest point of the three edges.
+/// The foot of the perpendicular if it lies inside; otherwise the nearest point of the three edges.
 Vector3d nearest_on_triangle(const Vector3d &x, const std::array<Vector3d, 3> &corners)
 {
   const auto &[a, b, c]    = corners;
@@ -45,7 +45,7 @@ Vector3d nearest_on_triangle(const Vector3d &x, const std::array<Vector3d, 3> &c
 struct NearestPoint
 {
   Vector3d position;
-  int      node; ///< corner of the triangle it lies on that is nearest to it
+  int      node; ///< nearest corner of the triangle that contains the position
 };
 
 NearestPoint nearest_point(const SurfacePatch &patch, const QuadraticMesh &mesh, const Vector3d &x)
@@ -120,8 +120,8 @@ std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interface
       continue;
     const Eigen::Map<const Vector3d> wanted(own.position->data());
     const double                     distance = (coupled.position - wanted).norm();
-    // Of the width of the triangles around a point of a curved surface: its facets lie no farther from it, as an edge
-    // of h of a circle of radius r >= h stands off by h^2 / (8 r), and one triangle has 0.43 h^2.
+    // Share of the width of the triangles around a point of a curved surface. The distance of its facets is smaller: an
+    // edge h of a circle of radius r >= h is off by h^2 / (8 r), and one triangle has an area of 0.43 h^2.
     constexpr double facets_off = 0.25;
     if (distance <= (is_node ? tolerance : std::max(tolerance, facets_off * std::sqrt(coupled.patch.area))))
       continue;

@@ -63,7 +63,7 @@ dealii::Triangulation<3> triangulation(const Mesh &mesh)
   return result;
 }
 
-/// Prisms come first: FE_WedgeP of 9.4 knows which of its functions are those of its neighbours, these do not.
+/// Prisms must come first: FE_WedgeP of deal.II 9.4 knows which functions it shares; the others do not.
 void distribute(dealii::DoFHandler<3> &nodes, const Mesh &mesh)
 {
   const dealii::FE_WedgeP<3>   prism(2);
@@ -88,10 +88,10 @@ int *nodes_of(QuadraticMesh &mesh, int cell)
   return const_cast<int *>(mesh.nodes(cell));
 }
 
-/// Between a prism and a hexahedron get_dof_indices() of 9.4 names the right node of their face for the second alone.
+/// On a face between a prism and a hexahedron, get_dof_indices() of deal.II 9.4 is right for the hexahedron only.
 void take_from_hexahedra(const Cell &cell, QuadraticMesh &mesh)
 {
-  constexpr int first_quad_face = 2, of_prism = 15, of_hexahedron = 20; // nodes amid faces
+  constexpr int first_quad_face = 2, of_prism = 15, of_hexahedron = 20; // first middle nodes of faces
   for (int face = first_quad_face; face < 5; ++face)
     if (!cell->at_boundary(face) && mesh.kind(cell->neighbor(face)->index()) == CellKind::hexahedron)
       nodes_of(mesh, cell->index())[of_prism + face - first_quad_face] =
@@ -117,7 +117,7 @@ void read_numbers(const dealii::DoFHandler<3> &handler, const Mesh &mesh, Quadra
         take_from_hexahedra(cell, result);
 }
 
-/// Nodes amid the corners around them.
+/// Places nodes in the middle of their corners.
 void place_nodes(const Mesh &mesh, QuadraticMesh &result)
 {
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
@@ -159,7 +159,7 @@ void bend_edges(const Mesh &mesh, QuadraticMesh &result)
     }
 }
 
-/// Nodes of the outer faces, found by the corners they stand amid: two of an edge, the diagonal's of a quadrilateral.
+/// Nodes of the outer faces, found by the corners between which they lie: two per edge, or of a diagonal.
 class OuterNodes
 {
 public:
@@ -254,7 +254,7 @@ void number_skin(const Mesh &mesh, const OuterNodes &outer, QuadraticMesh &resul
 QuadraticMesh quadratic_mesh(const Mesh &mesh)
 {
   require_sound(mesh);
-  petsc_session(); // deal.II asks MPI for its rank
+  petsc_session(); // deal.II requests its rank from MPI
 
   const dealii::Triangulation<3> cells = triangulation(mesh);
   dealii::DoFHandler<3>          handler(cells);

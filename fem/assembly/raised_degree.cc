@@ -142,7 +142,7 @@ Point with_cubics(const ReferenceCell::Points &points, int p, const std::vector<
   return point;
 }
 
-/// Exact for the stiffness of straight cells; of masses, whose cubics carry next to nothing, nearly so.
+/// Quadrature, exact for the stiffness of straight cells and nearly so for the mass, with small cubic terms.
 std::vector<Point> rule(CellKind kind, const std::vector<Local> &functions)
 {
   const ReferenceCell::Points &finer = reference_cell(kind).finer;
@@ -186,7 +186,7 @@ CellMatrices cell_matrices(const Eigen::Matrix3Xd &X, const std::vector<Point> &
   return result;
 }
 
-/// Functions as further nodes behind those of the mesh.
+/// Adds functions as further nodes after those of the mesh.
 class ExtendedFrame
 {
 public:
@@ -253,7 +253,7 @@ private:
     std::iota(nodes.begin(), nodes.end(), 0);
     return affine.of_nodes(nodes);
   }
-  /// Marks what moves up to make room for the functions, whose number is not known yet.
+  /// Marks coordinates that move up for the functions, whose number is not yet known.
   int shifted(int coordinate) const { return coordinate < n_free_ ? coordinate : -1 - coordinate; }
 
   void extend(const AffineConstraints &affine)
@@ -271,8 +271,8 @@ private:
 
   bool is_added(Eigen::Index i) const { return i >= n_free_ && i < n_free_ + n_added_; }
 
-  /// What the cells add beside A, the frame's own, in its coordinates.  In place: with copies it would be the largest
-  /// thing in memory.
+  /// What the cells add to A, the matrix of the frame, in its coordinates. Computed in place: a copy would be the
+  /// largest object in memory.
   SparseMatrix extended(BlockMatrix cells, const SparseMatrix &A) const
   {
     SparseMatrix sum = projected(std::move(cells));

@@ -15,7 +15,7 @@ namespace gestell::fem
  * Functions of degree three in addition to the quadratics N of a mesh, each a linear function times one of them:
  *
  *     tetrahedra:  (L_a - L_b) N_ab  of every edge,  L_c N_ab  of every face: with them all cubics
- *     hexahedra:   (2 xi_d - 1) N_m  amid every line of nodes along xi_d
+ *     hexahedra:   (2 xi_d - 1) N_m  for the middle m of every line of nodes along xi_d
  *     prisms:      those of the triangle at each of three heights, and along the height
  *
  * They vanish on all other faces, edges and lines of nodes, so that neighbours share them.
@@ -28,11 +28,11 @@ public:
   /// A function within the reference cell.
   struct Local
   {
-    int                amid;        ///< node m whose N it is made of
+    int                amid;        ///< node m with the factor N of the function
     Eigen::Vector4d    line;        ///< l = line[0] + line[1..3] . xi
-    std::array<int, 3> nodes;       ///< whose places it is known by
-    bool               odd;         ///< changes its sign with the order of nodes[0] and nodes[2]
-    std::vector<int>   vanish_with; ///< where all these nodes are held it is
+    std::array<int, 3> nodes;       ///< nodes that identify its location
+    bool               odd;         ///< whether it changes its sign with the order of nodes[0] and nodes[2]
+    std::vector<int>   vanish_with; ///< it is zero if all these nodes are fixed
   };
 
   int                              size() const { return static_cast<int>(vanish_with_.size()); }
@@ -50,7 +50,7 @@ private:
 struct RaisedFrame
 {
   SparseMatrix     C, M;
-  std::vector<int> place; ///< of each coordinate of the frame
+  std::vector<int> place; ///< new index of each coordinate of the frame
 };
 
 /**

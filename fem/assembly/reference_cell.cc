@@ -61,7 +61,7 @@ std::vector<std::vector<int>> faces_of(const dealii::ReferenceCell &cell)
   return result;
 }
 
-/// Sets of corners amid which nodes may stand: a corner alone, those of an edge, of a quadrilateral, of the cell.
+/// Sets of corners that have a node in their middle: single corners, edges, quadrilaterals, the cell.
 std::vector<std::vector<int>> sets_of_corners(const std::vector<std::vector<int>> &faces, int n_corners)
 {
   std::vector<std::vector<int>> sets(1, std::vector<int>(n_corners));

@@ -54,7 +54,7 @@ Eigen::VectorXd cancelling_energy(const Eigen::SparseMatrix<double> &C, const Ei
   return sum;
 }
 
-/// Coordinates that the pattern of C connects while some are held.
+/// Groups of coordinates that the pattern of C connects while others are fixed.
 std::vector<std::vector<int>> connected_parts(const Eigen::SparseMatrix<double> &C, const std::vector<int> &held)
 {
   std::vector<char> done(C.rows(), 0);
@@ -79,8 +79,8 @@ std::vector<std::vector<int>> connected_parts(const Eigen::SparseMatrix<double> 
   return parts;
 }
 
-/// Mean place of the coordinates that are displacements: of one along x the turns about the frame's centre tell y and
-/// z.
+/// Mean position of the coordinates that are displacements. The rotations about the centre of the frame give y and z of
+/// a displacement along x.
 Eigen::Vector3d middle_of(const FrameMatrices &frame, const std::vector<int> &part)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero(), count = Eigen::Vector3d::Constant(1e-300);
@@ -106,7 +106,7 @@ Eigen::MatrixXd free_space(const FrameMatrices &frame, const std::vector<int> &p
   Z.rightCols(3) /= length;
   const Eigen::MatrixXd energy = Z.transpose() * (frame.C * Z);
   Eigen::MatrixXd       size   = Z.transpose() * Z;
-  size.diagonal().array() += 1e-12 * size.trace(); // a motion of held coordinates only has no size
+  size.diagonal().array() += 1e-12 * size.trace(); // a motion of fixed coordinates only has size zero
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> candidates(energy, size);
 
   const Eigen::MatrixXd motions = Z * candidates.eigenvectors();
@@ -126,7 +126,7 @@ Eigen::MatrixXd free_space(const FrameMatrices &frame, const std::vector<int> &p
   return Eigen::HouseholderQR<Eigen::MatrixXd>(result).householderQ() * Eigen::MatrixXd::Identity(6, result.cols());
 }
 
-/// Takes the unit motion e_i out of the space if it lies in it.
+/// Removes the unit motion e_i from the space if it is contained in it.
 bool take_out(Eigen::MatrixXd &space, int i)
 {
   const Eigen::VectorXd along = space.row(i).transpose();
@@ -158,7 +158,7 @@ std::vector<std::string> names_of(Eigen::MatrixXd space, const Eigen::Vector3d &
   if (space.cols() == 0)
     return names;
 
-  // What remains is oblique: motions without rotation first.
+  // The remaining motions are oblique: translations first.
   const Eigen::MatrixXd                   rotations = space.bottomRows(3);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rotations, Eigen::ComputeFullV);
   for (int k = static_cast<int>(space.cols()) - 1; k >= 0; --k)
@@ -172,7 +172,7 @@ std::vector<std::string> names_of(Eigen::MatrixXd space, const Eigen::Vector3d &
   return names;
 }
 
-/// That makes turns comparable with displacements [m].
+/// Length that makes rotations comparable with displacements [m].
 double length_of(const FrameMatrices &frame)
 {
   return std::sqrt(frame.rigid_motions.rightCols(3).squaredNorm() /
@@ -207,7 +207,7 @@ std::vector<std::string> free_motions(const FrameMatrices &frame, const std::vec
   const double                        length = length_of(frame);
   const std::vector<std::vector<int>> parts  = connected_parts(frame.C, held);
   std::vector<std::string>            names;
-  // Parts whose motions are named; a frame that falls into more has a mesh whose cells do not hang together.
+  // Number of parts whose motions are named; with more parts, the cells of the mesh are not connected.
   constexpr std::size_t most_parts = 20;
   for (std::size_t part = 0; part < std::min(parts.size(), most_parts); ++part)
     for (std::string &name : names_of(free_space(frame, parts[part], length),

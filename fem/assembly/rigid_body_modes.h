@@ -8,10 +8,10 @@ namespace gestell::fem
 {
 
 /**
- * The motions that free_motions() names of a frame with nothing held, as displacements of its coordinates [n x k],
- * independent of each other: of each part that nothing connects with others its own, zero elsewhere.
+ * Rigid-body modes of the unconstrained frame, as listed by free_motions(): linearly independent displacements of its
+ * coordinates [n x k].  Each unconnected part has its own modes, which are zero elsewhere.
  *
- * @param frame with rigid_motions; otherwise the result has no columns.
+ * @param frame  with rigid_motions; otherwise the result has no columns.
  */
 Eigen::MatrixXd free_displacements(const FrameMatrices &frame);
 

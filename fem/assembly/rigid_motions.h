@@ -34,12 +34,12 @@ Eigen::MatrixXd rigid_coordinates(const QuadraticMesh &mesh, const Eigen::Vector
                                   const std::vector<Interface> &interfaces);
 
 /**
- * Rigid motions the frame can make without elastic energy while some coordinates are held, in words:
- * "translation along x", "rotation about z", "rotation about (0.6, 0, 0.8) through (1, 0, 2) m".  Where it consists of
- * parts that nothing connects, part by part: "translation along x of part 2 of 2, near (1, 0, 2) m".
+ * Rigid-body modes of the frame with some coordinates fixed, as text: "translation along x", "rotation about z",
+ * "rotation about (0.6, 0, 0.8) through (1, 0, 2) m".  For unconnected parts each part separately: "translation along x
+ * of part 2 of 2, near (1, 0, 2) m".
  *
- * @param frame with rigid_motions; otherwise the result is empty.
- * @param held  coordinates that are held, e.g. frame.interface_coordinates().
+ * @param frame  with rigid_motions; otherwise the result is empty.
+ * @param held   fixed coordinates, e.g. frame.interface_coordinates().
  */
 std::vector<std::string> free_motions(const FrameMatrices &frame, const std::vector<int> &held);
 

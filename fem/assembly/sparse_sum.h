@@ -5,7 +5,7 @@
 namespace gestell::fem
 {
 
-/// A += S; where A has an entry wherever S has one, A stays where it lies.  Both of one size.
+/// A += S; if A has an entry wherever S has one, A keeps its memory.  Both have the same size.
 void add(SparseMatrix &A, const Eigen::SparseMatrix<double> &S);
 
 } // namespace gestell::fem

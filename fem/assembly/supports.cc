@@ -43,7 +43,7 @@ void require_valid(const Support &support)
                                 " acts in no direction; fix x, y or z, or give a foundation a stiffness [N/m].");
 }
 
-/// Row of C summed over the nodes a clamped support holds in direction d.
+/// Row of C summed over the nodes that a clamped support fixes in direction d.
 Eigen::VectorXd clamped_row(const std::vector<char> &counted, const BlockMatrix &C)
 {
   const BlockMatrix::Rows rows = C.rows();
@@ -78,7 +78,7 @@ Eigen::VectorXd foundation_row(const SupportedPatch &supported, int d, Vector3 S
   return row;
 }
 
-/// The rows of foundations that belong to displacements a clamp holds, summed.
+/// Sum of the rows of foundations for displacements that a clamp fixes.
 Eigen::VectorXd held_foundations_row(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals,
                                      const std::vector<char> &held)
 {

@@ -11,7 +11,7 @@
 namespace gestell::fem
 {
 
-/// A support with its surfaces found.
+/// A support with its surfaces.
 struct SupportedPatch
 {
   Support      support;
@@ -19,14 +19,14 @@ struct SupportedPatch
 };
 
 /**
- * Finds the surfaces and checks the numbers; what was given per area becomes the total.
+ * Finds the surfaces and checks the numbers; values per area are converted to totals.
  *
  * @throws std::invalid_argument for unknown surfaces, negative stiffness or damping, a foundation with none.
  */
 std::vector<SupportedPatch> find_supports(const Mesh &mesh, const QuadraticMesh &quadratic,
                                           const std::vector<Support> &supports);
 
-/// Holds the displacements of clamped supports.
+/// Fixes the displacements of clamped supports.
 void hold(const std::vector<SupportedPatch> &supports, MultipointConstraints &constraints);
 
 /**
@@ -36,7 +36,7 @@ void hold(const std::vector<SupportedPatch> &supports, MultipointConstraints &co
  */
 void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, BlockMatrix &matrix);
 
-/// Foundations alone: with their damping, B of the free frame.
+/// Only the foundations: with their damping, this is B of the free frame.
 BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, int n_nodes);
 
 /**

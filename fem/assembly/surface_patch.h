@@ -12,11 +12,11 @@
 namespace gestell::fem
 {
 
-/// One or more named surfaces as a set of quadratic triangles; a triangle named twice counts once.
+/// One or more named surfaces as a set of quadratic triangles; a triangle named twice is included once.
 struct SurfacePatch
 {
   std::vector<int>                nodes;  ///< of the quadratic mesh, ascending
-  std::vector<std::array<int, 6>> faces;  ///< into the quadratic mesh; of a quadrilateral its two halves
+  std::vector<std::array<int, 6>> faces;  ///< into the quadratic mesh; both halves of a quadrilateral
   std::vector<std::array<int, 9>> quads;  ///< quadrilaterals, FE_Q(2)
   Eigen::SparseMatrix<double>     S;      ///< int N_a N_b dA [m^2], over `nodes`
   Eigen::VectorXd                 weight; ///< int N_a dA = S 1 [m^2]; 0 at corners, a third of the area at middles
@@ -31,7 +31,7 @@ struct SurfacePatch
 SurfacePatch surface_patch(const Mesh &mesh, const QuadraticMesh &quadratic, const std::vector<std::string> &surfaces,
                            const std::string &owner, const std::string &place);
 
-/// The part of a surface that these faces make up.
+/// The part of a surface that consists of these faces.
 SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int, 6>> faces);
 
 } // namespace gestell::fem

@@ -110,7 +110,7 @@ double facing(const Face &face, const Vector3 &at, const Vector3 &direction)
   return std::abs(dot(radial, direction)) / norm(radial);
 }
 
-/// The two faces of two solids that come nearest; of several at the same distance those that face each other.
+/// The two nearest faces of two solids; of several pairs at the same distance the one whose faces point to each other.
 BodyGap gap_between(const ShapeSolid &a, const ShapeSolid &b, const CadModel &model)
 {
   std::vector<std::tuple<double, const ShapeFace *, const ShapeFace *>> pairs;
@@ -153,7 +153,7 @@ BodyGap gap_between(const ShapeSolid &a, const ShapeSolid &b, const CadModel &mo
   return best;
 }
 
-/// Pairs of solids of different bodies, nearest first: by their boxes until the distance itself is known.
+/// Pairs of solids of different bodies, nearest first; at first the distance of their boxes.
 struct Candidate
 {
   double  distance;

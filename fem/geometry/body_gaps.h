@@ -14,12 +14,12 @@ struct BodyGap
   int         solid_a = 0, solid_b = 0; ///< indices
   double      distance = 0.;            ///< [m]
   Vector3     at{};                     ///< centre of the gap [m]
-  std::string face_a, face_b;           ///< described as selectors find them
+  std::string face_a, face_b;           ///< descriptions as used by selectors
 };
 
 /**
- * For every body but the first of each connected group the nearest other one: the gaps of a spanning tree, so that
- * closing them makes the model one body.  Exact distances between faces (OpenCASCADE), whose pairs are sorted out by
+ * The gap from every body, except the first, to the nearest other one: the gaps of a spanning tree, so that closing
+ * them makes the model one body.  Distances between faces are exact (OpenCASCADE); pairs of faces are preselected by
  * their boxes.
  *
  * @param body  of each solid

@@ -41,7 +41,7 @@ std::string bytes(const std::string &path, std::uintmax_t from, std::size_t coun
   return text;
 }
 
-constexpr std::size_t end_of_file = 1024; // bytes in which the first and the last words must stand
+constexpr std::size_t end_of_file = 1024; // bytes in which the first and the last words are searched
 
 std::string head_of(const std::string &path)
 {

@@ -18,7 +18,7 @@ enum class CadFile
   triangles ///< .stl, a surface
 };
 
-/// By the extension; nothing if such files are not supported.
+/// Kind of the file by its extension; empty if such files are not supported.
 std::optional<CadFile> kind_of_file(const std::string &path);
 
 bool is_step(const std::string &path);

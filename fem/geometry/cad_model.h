@@ -31,9 +31,9 @@ struct MeshGroups
 struct CadModel
 {
   double                   unit   = 1.;    ///< length of gmsh's unit [m]
-  bool                     meshed = false; ///< came as a mesh (.msh): volumes and faces are not known yet
+  bool                     meshed = false; ///< read as a mesh (.msh): volumes and faces are not known yet
   std::vector<Solid>       solids;
-  std::vector<Face>        faces; ///< between the solids and the outside; faces between two solids are not among them
+  std::vector<Face>        faces; ///< between the solids and the outside, without faces between two solids
   Vector3                  min{}, max{};
   MeshGroups               groups;
   std::vector<std::string> notes;      ///< warnings

@@ -121,7 +121,7 @@ void require_sound(const CadModel &now, const CadModel &before, const FrameSpeci
   if (now.solids.size() != before.solids.size())
     refuse("leaves " + std::to_string(now.solids.size()) + " of " + std::to_string(before.solids.size()) + " solids");
   const double     change         = now.volume() / before.volume() - 1.;
-  constexpr double largest_change = 0.05; // of the volume: more is no detail
+  constexpr double largest_change = 0.05; // of the volume: a larger change is not a detail
   if (!(std::abs(change) < largest_change))
     refuse("changes the volume by " + text(100. * change) + " %");
 }

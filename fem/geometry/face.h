@@ -9,7 +9,7 @@
 namespace gestell::fem
 {
 
-/// Directions that differ by less [rad] are the same; normals from CAD are good to 1e-6.
+/// Directions with a smaller difference [rad] are equal; normals from CAD have an accuracy of 1e-6.
 constexpr double straight = 1e-3;
 
 /// Kind of a face, as selectors distinguish it.
@@ -31,14 +31,14 @@ struct Face
 
   int                      tag  = 0;
   FaceKind                 kind = FaceKind::other;
-  std::string              type;   ///< gmsh's word: "Plane", "Cylinder", "BSpline surface", ...
+  std::string              type;   ///< type in gmsh: "Plane", "Cylinder", "BSpline surface", ...
   std::string              name;   ///< label in the STEP file, "" if it has none
-  std::vector<std::string> groups; ///< physical groups, layers and colours ("#ff8000") the face belongs to
-  std::vector<int>         edges;  ///< tags of the curves around it: faces that share one are neighbours
+  std::vector<std::string> groups; ///< physical groups, layers and colours ("#ff8000") of the face
+  std::vector<int>         edges;  ///< tags of its boundary curves: faces with a common one are adjacent
   double                   area = 0.;
   Vector3                  min{}, max{}, centre{};
   Vector3                  direction{};     ///< plane: outward normal; cylinder: axis, first component != 0 positive
-  Vector3                  through{};       ///< plane: a point of it; cylinder: of its axis; nearest to centre
+  Vector3                  through{};       ///< plane: a point of it; cylinder: of its axis; closest to centre
   double                   radius  = 0.;    ///< cylinder
   bool                     faceted = false; ///< given by triangles only, with approximate normals
   std::vector<Sample>      samples;         ///< points of the underlying surface

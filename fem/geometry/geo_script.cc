@@ -17,14 +17,14 @@ namespace
 using Words = std::set<std::string>;
 using Kind  = GeoToken::Kind;
 
-/// Those of a text, parted by blanks.
+/// The words of a text, separated by blanks.
 Words words(const std::string &text)
 {
   std::istringstream stream(text);
   return {std::istream_iterator<std::string>(stream), {}};
 }
 
-/// Of gmsh's scanner: what only draws, computes, sizes and meshes.
+/// Permitted words of gmsh: those that only draw, compute, set sizes and mesh.
 const Words language =
     words("newreg newp newl newc newll news newsl newv newf Abort Abs Acos Affine ArcCos Append ArcSin ArcTan "
           "ArcTan2 Asin Atan Atan2 BSpline Bezier Box Block BooleanCoherence BooleanCommon BooleanCut "
@@ -45,7 +45,7 @@ const Words language =
           "Tan Tanh ThickSolid ThruSections Today Torus TransfQuadTri Transfinite Translate UndefineConstant "
           "Unique UpperCase Using Volume Warning Wedge Wire");
 
-/// What else gmsh knows, and why it is refused.
+/// Other words of gmsh, with the reason of their refusal.
 std::map<std::string, std::string> refused_words()
 {
   std::map<std::string, std::string> refused;
@@ -78,7 +78,7 @@ const Words reads_files = {"Include", "Merge", "MergeWithBoundingBox", "ShapeFro
 const Words prints      = {"Printf", "Warning", "Error"};
 const Words block_ends  = {"Return", "EndFor", "EndIf", "Else"};
 
-/// Of size fields; others read files or run programs.
+/// Permitted size fields; others read files or run programs.
 const Words field_kinds = {
     "Attractor", "Ball",     "BoundaryLayer", "Box",    "Curvature", "Cylinder", "Distance",
     "Frustum",   "Gradient", "Laplacian",     "LonLat", "MathEval",  "Max",      "MaxEigenHessian",
@@ -135,7 +135,7 @@ private:
   bool is(std::size_t i, Kind kind) const { return i < tokens_.size() && tokens_[i].kind == kind; }
   bool opens(std::size_t i) const { return is(i, "(") || is(i, "[") || is(i, "{"); }
 
-  /// Of every bracket that opens, where it closes; and what stands in brackets of DefineConstant.
+  /// Finds the closing bracket of every opening one, and the tokens in brackets of DefineConstant.
   void find_closings()
   {
     std::vector<std::size_t> open;
@@ -240,7 +240,7 @@ private:
       refuse(i, "\"" + word + "\" is not in the list of safe commands");
   }
 
-  /// Of transfinite surfaces: "... = {1, 2, 3, 4} Left;"
+  /// Whether the word is the arrangement of a transfinite surface: "... = {1, 2, 3, 4} Left;"
   bool is_arrangement(std::size_t i) const
   {
     static const Words arrangements = {"Left", "Right", "Alternate", "AlternateLeft", "AlternateRight"};
@@ -266,8 +266,8 @@ private:
 
   const std::vector<GeoToken>             &tokens_;
   const RefuseLine                        &refuse_;
-  std::vector<std::size_t>                 closing_; ///< by the bracket that opens
-  std::map<std::size_t, std::size_t>       opening_; ///< by the bracket that closes
+  std::vector<std::size_t>                 closing_; ///< by opening bracket
+  std::map<std::size_t, std::size_t>       opening_; ///< by closing bracket
   std::vector<bool>                        of_constants_;
   std::vector<std::size_t>                 files_;
   const std::map<std::string, std::string> refused_ = refused_words();

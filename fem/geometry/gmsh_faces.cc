@@ -107,7 +107,7 @@ void add_triangle(Face &face, const Vector3 &a, const Vector3 &b, const Vector3 
   face.centre = face.centre + (area / 3.) * (a + b + c);
 }
 
-/// Numbers the edges of the mesh between two faces, so that neighbours know each other.
+/// Numbers the edges of the mesh between two faces, so that adjacent faces can be found.
 void find_neighbours(std::map<int, Face> &faces, const Mesh &mesh, const std::vector<int> &skin_surface)
 {
   std::map<std::pair<int, int>, std::set<int>> around; // edge to tags of faces
@@ -125,7 +125,7 @@ void find_neighbours(std::map<int, Face> &faces, const Mesh &mesh, const std::ve
     }
 }
 
-/// Those that bound so many solids.
+/// The faces that bound the given number of solids.
 std::vector<Face> faces_of_geometry(std::size_t n_solids, double unit, double diagonal)
 {
   gmsh::vectorpair entities;

@@ -10,7 +10,7 @@
 namespace gestell::fem
 {
 
-/// The name of a solid or a face: of gmsh's label, in which the parts that hold it come first, "Shapes/frame/foot".
+/// The name of a solid or a face, from gmsh's label, which starts with the parent parts: "Shapes/frame/foot".
 std::string name_in_label(const std::string &label);
 
 /**
@@ -21,7 +21,7 @@ std::string name_in_label(const std::string &label);
  */
 std::vector<Face> outer_faces(double unit, double diagonal);
 
-/// The same of those between two solids.
+/// The same for faces between two solids.
 std::vector<Face> inner_faces(double unit, double diagonal);
 
 /**

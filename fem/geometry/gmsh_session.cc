@@ -23,7 +23,7 @@ void silence_opencascade()
   messenger->ChangePrinters().Clear();
 }
 
-/// What the standard library throws in gmsh, such as std::stoi on a damaged file.
+/// Whether the standard library threw the error in gmsh, such as std::stoi on a damaged file.
 bool is_bare(const std::invalid_argument &error)
 {
   const std::string words = error.what();
@@ -85,7 +85,7 @@ GmshSession::GmshSession()
 
 GmshSession::~GmshSession()
 {
-  gmsh::logger::stop(); // else the next session would begin with our messages
+  gmsh::logger::stop(); // otherwise the next session would begin with these messages
   gmsh::finalize();
 }
 

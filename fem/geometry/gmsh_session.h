@@ -20,8 +20,8 @@ public:
   GmshSession(const GmshSession &)            = delete;
   GmshSession &operator=(const GmshSession &) = delete;
 
-  /// Runs `action`; a failure of gmsh becomes std::invalid_argument "<head><gmsh's words><remedy>", other exceptions
-  /// pass.
+  /// Runs `action`; a failure of gmsh becomes std::invalid_argument "<head><message of gmsh><remedy>", other exceptions
+  /// propagate.
   void run(const std::function<void()> &action, const std::string &head, const std::string &remedy) const;
 
   /// gmsh's errors so far in one line, "" if there were none.

@@ -66,7 +66,7 @@ public:
   }
 
 private:
-  /// The begin of it, of which names of sections are.
+  /// The start of the line, sufficient for names of sections.
   std::string next_line()
   {
     constexpr std::size_t kept = 64; // letters: lines that count are shorter
@@ -118,7 +118,7 @@ private:
 
   Count place() { return Count(in_.tellg()); }
 
-  /// A number of `things` that take so many bytes each, at least.
+  /// Reads the number of `things`, each of at least the given number of bytes.
   Count count(const std::string &things, Count bytes)
   {
     const Count at   = place();
@@ -135,7 +135,7 @@ private:
 
   void tags(const std::string &things) { pass(count(things, size_of_int) * size_of_int); }
 
-  /// Points, curves, surfaces and volumes: a head, their extents, physical groups and, but for points, boundaries.
+  /// Points, curves, surfaces and volumes: a head, their extents, physical groups and, except for points, boundaries.
   template <typename PassHead>
   void entities(Count head, const PassHead &pass_head)
   {
@@ -173,8 +173,7 @@ private:
              });
   }
 
-  /// What heads the blocks of nodes and of elements: how many blocks and how many in all, the lowest and the highest
-  /// tag.
+  /// Head of the blocks of nodes and of elements: number of blocks, total number, lowest and highest tag.
   struct Blocks
   {
     Count n, in_all, at, found = 0;
@@ -190,7 +189,7 @@ private:
     return blocks;
   }
 
-  /// Fewer than announced are no harm: gmsh announces more where parts of a mesh share nodes.
+  /// Adds to the number found. A smaller number than announced is valid: gmsh may announce more.
   static void add(Blocks &blocks, Count n, const std::string &things)
   {
     if ((blocks.found += n) > blocks.in_all)

@@ -106,13 +106,13 @@ std::string place_of(std::ifstream &in)
 }
 
 /**
- * Reads a BREP file by OpenCASCADE from a stream that throws at the first word that is missing or no number: without,
- * it goes on behind the end of the file for hours, or for ever, where a count is wrong or an entry lost.
+ * Reads a BREP file by OpenCASCADE from a stream that throws at the first missing or malformed number. Without this
+ * check, a wrong count or a missing entry makes OpenCASCADE read past the end of the file for hours or without end.
  *
- * May die of a damaged file as OpenCASCADE does: to be called where gmsh reads.
+ * OpenCASCADE may crash on a damaged file: call this where gmsh reads.
  *
- * @throws std::invalid_argument if the file ends before its entries do, or, with the line, holds a word in place of a
- *         number; Standard_Failure by OpenCASCADE
+ * @throws std::invalid_argument if the file ends before its entries do, or, with the line, contains a word in place of
+ *   a number; Standard_Failure by OpenCASCADE
  */
 void check_brep_file(const CadSource &source)
 {
@@ -297,7 +297,7 @@ std::string suspect_size(const CadModel &model, const CadSource &source)
 namespace
 {
 
-/// Reads `opened` in place of source.path.
+/// Reads `opened` instead of source.path.
 CadModel read_model(const CadSource &source, CadFile file, const std::string &opened, const GmshSession &session)
 {
   CadModel model;
@@ -370,7 +370,7 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
   if (specification.mesh.size > 0.) // for scripts that mesh by themselves: they read Mesh.MeshSizeMax
     gmsh::option::setNumber("Mesh.MeshSizeMax", specification.mesh.size / (source.unit > 0. ? source.unit : 1.));
   CadModel model = open_cad(source, session);
-  if (model.meshed) // judged by its cells
+  if (model.meshed) // its cells are checked instead
     return model;
   if (file == CadFile::geo && specification.mesh.defeature > 0.)
     throw std::invalid_argument(specification.mesh.place + ": defeature is for STEP and BREP files; " + source.path +

@@ -31,7 +31,7 @@ void require_mesh(const std::string &place, const files::path &file)
         "script; save the mesh as .msh, or name a script .geo.");
 }
 
-/// The same; and that it holds what it announces, as check_cad_file() asks of the file that a scene names.
+/// Also requires that the counts in the file are right, as check_cad_file() does for the file of a scene.
 void require_sound_mesh(const std::string &place, const files::path &file)
 {
   require_mesh(place, file);
@@ -100,7 +100,7 @@ std::string ScriptSandbox::copy_script(const files::path &script)
   constexpr std::size_t deepest_script = 50; // includes: gmsh reads each inside the other
   if (++depth_ > deepest_script)
     refuse(1, "is included more than " + std::to_string(deepest_script) + " levels deep; merge scripts");
-  const std::string     copy   = place_for(script); // before its own files: they may name it in turn
+  const std::string     copy   = place_for(script); // before the files it names: they may name it in turn
   std::vector<GeoToken> tokens = geo_tokens(text_of(script), refuse);
   for (const std::size_t i : judge_geo(tokens, refuse))
     tokens[i].text = copy_named(tokens[i].text, tokens[i - 1].is("Include"), script, tokens[i].line);

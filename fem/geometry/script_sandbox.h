@@ -13,7 +13,7 @@ namespace gestell::fem
 {
 
 /**
- * A safe copy of a CAD file for gmsh, in a separate folder while this lives. gmsh runs unknown files as scripts,
+ * A safe copy of a CAD file for gmsh, in a separate folder during its lifetime. gmsh runs unknown files as scripts,
  * whatever their extension, and the file "NAME.opt" next to each file that it reads. So a script (.geo) is checked, see
  * judge_geo(), and its checked text copied, with the scripts that it includes; other files are linked individually.  A
  * .msh must begin as one.  A script names files in its own folder and those below it only.
@@ -21,13 +21,13 @@ namespace gestell::fem
 class ScriptSandbox
 {
 public:
-  /// @throws std::invalid_argument with file and line; of source.scripts == Scripts::trusted nothing is judged.
+  /// @throws std::invalid_argument with file and line; with source.scripts == Scripts::trusted nothing is checked.
   ScriptSandbox(const CadSource &source, CadFile kind);
 
-  /// To be opened by gmsh.
+  /// Path for gmsh.
   const std::string &path() const { return path_; }
 
-  /// A message of gmsh with the files as their owner calls them.
+  /// A message of gmsh with the original names of the files.
   std::string in_own_names(std::string message) const;
 
 private:
@@ -36,12 +36,12 @@ private:
   std::string copy_script(const std::filesystem::path &script);
   std::string copy_named(const std::string &name, bool included, const std::filesystem::path &script, int line);
 
-  std::string                        place_;  ///< heads messages
+  std::string                        place_;  ///< prefix of messages
   std::filesystem::path              home_;   ///< folder of the script
-  std::optional<TemporaryDirectory>  folder_; ///< none: the file is opened as it is
+  std::optional<TemporaryDirectory>  folder_; ///< none: the file is opened directly
   std::string                        path_;
   std::size_t                        depth_ = 0; ///< of the scripts that include each other
-  std::map<std::string, std::string> copies_;    ///< by the path of the original
+  std::map<std::string, std::string> copies_;    ///< by the original path
 };
 
 } // namespace gestell::fem

@@ -16,7 +16,7 @@ struct Owner
   std::string                     place;
 };
 
-/// Those that say how the whole of their surfaces moves.
+/// The supports, masses and interfaces that determine the motion of their whole surfaces.
 std::vector<Owner> owners_of(const FrameSpecification &specification)
 {
   std::vector<Owner> owners;
@@ -43,7 +43,7 @@ void require_faces_of_one_owner(const std::map<std::string, std::vector<int>> &s
     {
       const auto tags = selection.find(surface);
       if (tags == selection.end())
-        continue; // told where surfaces are looked up
+        continue; // reported where surfaces are selected
       for (const int tag : tags->second)
       {
         const auto [entry, is_new] = first.try_emplace(tag, i, surface);

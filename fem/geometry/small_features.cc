@@ -21,7 +21,7 @@ double length_of(int edge, double unit)
   return unit * length;
 }
 
-/// 2 A / P; the seam of a closed face is no edge of it.
+/// Width 2 A / P; the seam of a closed face does not count as an edge.
 double width_of(int face, double area, double unit)
 {
   gmsh::vectorpair edges;

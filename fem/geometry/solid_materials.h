@@ -18,7 +18,7 @@ namespace gestell::fem
 std::vector<std::size_t> solids_of(const std::pair<std::string, Material> &named,
                                    const std::vector<std::string>         &solids);
 
-/// Checks that every pattern of specification.materials matches a solid.  @throws std::invalid_argument as solids_of().
+/// Checks that every pattern of specification.materials matches a solid.  @throws as solids_of() does.
 void check_solids_of_materials(const FrameSpecification &specification, const std::vector<std::string> &solids);
 
 } // namespace gestell::fem

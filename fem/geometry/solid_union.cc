@@ -25,7 +25,7 @@ std::string head_of(const FrameSpecification &specification)
   return specification.place + ": " + specification.cad;
 }
 
-using Parents = std::map<int, std::vector<int>>; // tag of a piece to the solids it lies in, in the order of the file
+using Parents = std::map<int, std::vector<int>>; // tag of a piece to the solids that contain it, in file order
 
 /// Physical surface of a script, whose faces get other tags where solids are joined.
 struct SurfaceGroup
@@ -79,7 +79,7 @@ void restore(const std::vector<SurfaceGroup> &groups, std::map<int, std::vector<
 Parents fragment(const CadModel &model, const FrameSpecification &specification, const GmshSession &session)
 {
   gmsh::vectorpair                first = {{3, model.solids[0].tag}}, rest, pieces;
-  std::vector<gmsh::vectorpair>   of_solid; // and then of every face of a group
+  std::vector<gmsh::vectorpair>   of_solid; // followed by those of every face of a group
   const std::vector<SurfaceGroup> groups  = surface_groups();
   const std::vector<int>          grouped = faces_of(groups);
   for (std::size_t i = 1; i < model.solids.size(); ++i)
@@ -155,7 +155,7 @@ int number_of_common_faces(const std::vector<Solid> &solids)
 /// are nearer than the sum of their tolerances and the gap, and a vertex it has joined may have a tolerance of a gap.
 constexpr double share_of_thickness = 1. / 3.;
 
-/// Mean thickness 2 V / A [m]: that of a thin wall, never more than the thinnest side of the box around the solid.
+/// Mean thickness 2 V / A [m]: exact for thin walls, and never more than the smallest side of the bounding box.
 double thickness(const Solid &solid, double unit)
 {
   double area = 0.;
@@ -188,7 +188,7 @@ bool some_are_near(const CadModel &model, double distance)
   return false;
 }
 
-/// Solids that another one is as near to as the gap must be far thicker: their own faces would be taken for one.
+/// Requires that solids with another solid within the gap are thick enough that their own faces are not merged.
 void require_small_gap(const CadModel &model, const FrameSpecification &specification)
 {
   const double gap = specification.mesh.gap;

@@ -151,7 +151,7 @@ void add_step_attributes(std::vector<Face> &faces, const CadSource &source)
 {
   if (!read_step_text(source.path).has_styles)
     return;
-  const std::vector<StyledFace> styled = read_styles(source.path); // in the unit gmsh has told OpenCASCADE
+  const std::vector<StyledFace> styled = read_styles(source.path); // in the unit that gmsh set in OpenCASCADE
   for (Face &face : faces)
   {
     const auto point = point_within(face.tag);

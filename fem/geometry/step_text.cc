@@ -24,14 +24,14 @@ bool is_digit(char c)
   return std::isdigit(static_cast<unsigned char>(c));
 }
 
-/// What programs write for numbers that are none: nan, -nan(ind), inf, 1.#QNAN.
+/// Whether the word is a value that is not a number, as programs write it: nan, -nan(ind), inf, 1.#QNAN.
 bool is_no_number(std::string word)
 {
   std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::toupper(c); });
   return word == "NAN" || word == "INF" || word == "INFINITY" || word == "QNAN" || word == "SNAN";
 }
 
-/// Walks over the text and collects what StepText tells.
+/// Scans the text and collects the data of StepText.
 class Scan
 {
 public:

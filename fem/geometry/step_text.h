@@ -11,9 +11,9 @@ namespace gestell::fem
 struct StepText
 {
   std::size_t   n_entities    = 0;
-  std::size_t   n_missing     = 0;    ///< references to entities that are not in the file
+  std::size_t   n_missing     = 0;    ///< references to missing entities
   std::uint64_t first_missing = 0;    ///< number of such an entity
-  std::uint64_t named_by      = 0;    ///< and of the one that refers to it
+  std::uint64_t named_by      = 0;    ///< number of the entity that references it
   std::string   no_number;            ///< the first invalid number, such as NaN; "" for none
   std::uint64_t no_number_in = 0;     ///< its entity
   bool          has_unit     = false; ///< a unit of length, and a context it is assigned in

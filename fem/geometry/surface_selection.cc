@@ -44,7 +44,7 @@ double violation(const Face &face, const SurfaceSelector::Plane &plane)
   return worst;
 }
 
-/// How far [m] the face is from lying on the cylinder; infinite if it stands across the axis.
+/// Distance [m] of the face from the cylinder; infinite if it is perpendicular to the axis.
 double violation(const Face &face, const SurfaceSelector::Cylinder &cylinder)
 {
   const Vector3 a     = unit(cylinder.axis);
@@ -152,7 +152,7 @@ std::string wish(const SurfaceSelector &selector)
   return words.substr(2);
 }
 
-/// The faces that come nearest, best first; where nothing is near, those of the wanted kind.
+/// The nearest faces, best first; if none is near, faces of the wanted kind first.
 std::string candidates(const std::vector<Face> &faces, const SurfaceSelector &selector)
 {
   const auto kind_fits = [&](const Face &face)
@@ -193,7 +193,7 @@ std::string groups_of(const std::vector<Face> &faces)
   return list.empty() ? "The model has no named group or face." : "The model names " + list + ".";
 }
 
-/// Faces that share an edge hang together, as the halves of a bore: the number of the piece of each.
+/// Number of the connected piece of each face; faces that share an edge are connected, as the halves of a bore.
 std::vector<std::size_t> pieces_of(const std::vector<const Face *> &faces)
 {
   std::vector<std::size_t>   piece(faces.size());
@@ -214,13 +214,13 @@ std::size_t n_pieces(const std::vector<const Face *> &faces)
   return std::set<std::size_t>(piece.begin(), piece.end()).size();
 }
 
-/// Whether there are so many faces, or so many pieces of them.
+/// Whether the number of faces, or of their connected pieces, is `wanted`.
 bool are_as_many(const std::vector<const Face *> &faces, std::size_t wanted)
 {
   return faces.size() == wanted || n_pieces(faces) == wanted;
 }
 
-/// The pieces that the point of the selector lies beside, whole.
+/// The whole pieces that contain a face at the point of the selector.
 std::vector<const Face *> pieces_at(const std::vector<const Face *> &faces, const SurfaceSelector &selector,
                                     double tolerance)
 {
@@ -236,7 +236,7 @@ std::vector<const Face *> pieces_at(const std::vector<const Face *> &faces, cons
   return result;
 }
 
-/// The number is that of the faces at the point of the selector, and that of all pieces that fit.
+/// Refuses a number that fits both the faces at the point of the selector and all matching pieces.
 [[noreturn]] void refuse_two_meanings(const SurfaceSelector &selector, const std::vector<const Face *> &here,
                                       const std::vector<const Face *> &all)
 {

@@ -10,7 +10,7 @@ namespace gestell::fem
 {
 
 /**
- * The faces a selector means, by tag, ascending.
+ * The faces selected by a selector, by tag, ascending.
  *
  * A face matches if it satisfies every given condition within the tolerance (default 1e-4 of the model's diagonal): all
  * its samples are on the given plane, with the given outward normal, or at the given radius from the axis; its box is

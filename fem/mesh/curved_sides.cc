@@ -54,7 +54,7 @@ const std::vector<std::array<int, 4>> &exponents()
   return all;
 }
 
-/// From values at the points of the lattice to coefficients: the inverse of B_c(point) = 3!/(i! j! k! l!) l^exponents.
+/// Matrix from values at the lattice points to coefficients: the inverse of B_c(point) = 3!/(i! j! k! l!) l^exponents.
 const Eigen::Matrix<double, n_coefficients, n_coefficients> &to_coefficients()
 {
   static const Eigen::Matrix<double, n_coefficients, n_coefficients> inverse = []
@@ -210,7 +210,7 @@ void follow_geometry(ExtractedMesh &extracted, const CadModel &model)
 void unfold(Mesh &mesh)
 {
   const std::size_t n_curved = mesh.middles.size();
-  std::set<Edge>    straightened; // or only halved: those keep a middle
+  std::set<Edge>    straightened; // or halved: these keep a middle node
   for (bool folded = !mesh.middles.empty(); folded;)
   {
     folded = false;

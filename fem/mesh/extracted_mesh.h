@@ -10,7 +10,7 @@
 namespace gestell::fem
 {
 
-/// gmsh's mesh as a value, and where its skin comes from.
+/// gmsh's mesh as a value, with the origin of its skin.
 struct ExtractedMesh
 {
   Mesh                     mesh;         ///< without named surfaces

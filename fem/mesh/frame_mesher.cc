@@ -88,7 +88,7 @@ void require_straight(const ExtractedMesh &extracted, const FrameSpecification &
         " with straight sides; remove curved and make cells smaller along curved faces, or mesh with tetrahedra.");
 }
 
-/// Whether a face of gmsh is among those of a surface, if there is such a surface.
+/// Whether a face of gmsh belongs to a surface; false if there is no such surface.
 bool is_on(const Selection &selection, const std::string &name, int face)
 {
   const auto found = selection.find(name);
@@ -177,7 +177,7 @@ void judge_features(MeshedModel &result, const MeshOptions &options)
         ") and force small elements there: mesh.defeature removes features below a size where possible");
 }
 
-/// By the mean thickness 2 V / A.
+/// Cell size from the mean thickness 2 V / A.
 double size_for_walls(const CadModel &model)
 {
   constexpr double swept_by_default = 20.; // size over the mean thickness of walls
@@ -187,7 +187,8 @@ double size_for_walls(const CadModel &model)
   return std::min(size, largest);
 }
 
-/// All that is judged before meshing; @return the options with their size.
+/// All checks before meshing.
+/// @return the options with their size.
 MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &specification, MissingSize missing)
 {
   MeshOptions options = specification.mesh;
@@ -199,12 +200,12 @@ MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &spec
   result.selection = select_all(result.model, specification);
   set_mesh_sizes(result.model, options, result.selection);
   judge_memory(result, specification, options);
-  if (options.plates != Plates::swept) // whose cells small features do not make smaller
+  if (options.plates != Plates::swept) // small features do not reduce their cell size
     judge_features(result, options);
   return options;
 }
 
-/// @return whether plates are to be swept and could be; a note says why not.
+/// @return whether plates were to be swept and could be; otherwise a note gives the reason.
 bool sweep(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options)
 {
   if (options.plates != Plates::swept)
@@ -212,7 +213,7 @@ bool sweep(MeshedModel &result, const FrameSpecification &specification, const M
   try
   {
     result.extracted      = swept_mesh(result.model, result.selection, specification, options);
-    result.expected_cells = 0.; // which is of tetrahedra
+    result.expected_cells = 0.; // an estimate for tetrahedra
     return true;
   }
   catch (const NotSwept &reason)
@@ -304,7 +305,7 @@ void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
   }
 }
 
-/// Colours and layers are wanted where a surface is asked for by name.
+/// Colours and layers are read only if a surface is selected by name.
 FaceAttributes wanted_attributes(const FrameSpecification &specification)
 {
   for (const auto &surface : specification.surfaces)
@@ -346,7 +347,7 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
   return result;
 }
 
-/// What is known before the mesh.
+/// Report of the geometry, before meshing.
 GeometryReport report_of(const MeshedModel &meshed)
 {
   GeometryReport report;

@@ -9,10 +9,10 @@
 namespace gestell::fem
 {
 
-/// Of the child that reads a file with gmsh, with the limits of that file.
+/// Task of the child that reads a file with gmsh, with the limits for that file.
 ChildTask gmsh_task(const CadSource &source, const std::string &phase);
 
-/// in_child(), and that all numbers of its value are finite.
+/// in_child(), with a check that all numbers of its value are finite.
 /// @param phase  of `work` that reads the file
 template <typename Value, typename Work>
 Value in_gmsh_child(const CadSource &source, const std::string &phase, const ChildProgress &progress, const Work &work)

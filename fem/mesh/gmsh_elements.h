@@ -10,7 +10,7 @@
 namespace gestell::fem
 {
 
-/// The elements of one type that an entity of gmsh holds.
+/// The elements of one type in an entity of gmsh.
 struct GmshElements
 {
   int                      n_nodes, n_corners; ///< of an element, corners first
@@ -20,7 +20,7 @@ struct GmshElements
   std::size_t count() const { return nodes.size() / static_cast<std::size_t>(n_nodes); }
 };
 
-/// Those of an entity, type by type.
+/// Elements of an entity, type by type.
 inline std::vector<GmshElements> elements_of(int dim, int tag)
 {
   std::vector<int>                      types;

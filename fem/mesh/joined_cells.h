@@ -15,7 +15,7 @@
 namespace gestell::fem
 {
 
-/// Representative of the set that holds i; paths are halved on the way.
+/// Representative of the set that contains i, with path halving.
 template <class Index>
 Index root(std::vector<Index> &parent, Index i)
 {
@@ -27,7 +27,7 @@ Index root(std::vector<Index> &parent, Index i)
 /// Pairs of equal faces join their cells in `parent`; returns single faces, the skin, in the order of their cells.
 ///
 /// @param faces  with members key (of the corners), cell and face, sorted by them
-/// @throws std::invalid_argument where more than two cells share a face
+/// @throws std::invalid_argument if more than two cells share a face
 template <class CellFace>
 std::vector<CellFace> join_cells(const std::vector<CellFace> &faces, std::vector<int> &parent, const std::string &head)
 {
@@ -51,13 +51,13 @@ std::vector<CellFace> join_cells(const std::vector<CellFace> &faces, std::vector
   return skin;
 }
 
-/// A surface of which some elements are faces of cells and others are not has lost cells: a note of the mesh.
+/// Adds a note for a surface with some elements that are faces of cells and others that are not: it has lost cells.
 /// @param surface_of  tags of surfaces by the sorted corners of their elements, -1 for a node of no cell
-/// @param is_face     says of such corners whether they are those of a face
+/// @param is_face     whether such corners are those of a face
 template <class Key, class IsFace>
 void note_missing_cells(Mesh &mesh, const std::map<Key, int> &surface_of, const IsFace &is_face)
 {
-  std::map<int, std::vector<Key>> without; // cells, of the surfaces by their tags
+  std::map<int, std::vector<Key>> without; // elements without cells, by the tags of their surfaces
   std::set<int>                   with;
   for (const auto &[key, tag] : surface_of)
     if (is_face(key))
@@ -70,7 +70,7 @@ void note_missing_cells(Mesh &mesh, const std::map<Key, int> &surface_of, const 
     if (with.count(tag) > 0)
     {
       n += elements.size();
-      where = std::max(where, elements.front().back()); // nodes of no cell have no number
+      where = std::max(where, elements.front().back()); // nodes without a cell have no number
     }
   if (n > 0)
     mesh.notes.push_back(std::to_string(n) + " elements of surfaces" +
@@ -79,13 +79,13 @@ void note_missing_cells(Mesh &mesh, const std::map<Key, int> &surface_of, const 
                          "truncated file; export the mesh again if they are intended");
 }
 
-/// Whether two cells lie on either side of a face that both have, however their corners are numbered; flat ones are
-/// judged elsewhere.
-/// @param face  of the first, as cell_shape() counts them
+/// Whether two cells are on opposite sides of their common face, for any numbering of its corners; flat cells are
+/// checked elsewhere.
+/// @param face  of the first cell, numbered as in cell_shape()
 bool lie_apart(const Mesh &mesh, int first, int face, int second);
 
-/// @param faces  as of join_cells()
-/// @throws std::invalid_argument where cells lie on the same side of their common face
+/// @param faces  as for join_cells()
+/// @throws std::invalid_argument if cells are on the same side of their common face
 template <class CellFace>
 void require_unfolded(const Mesh &mesh, const std::vector<CellFace> &faces, const std::string &head)
 {

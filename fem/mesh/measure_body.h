@@ -9,12 +9,12 @@ namespace gestell::fem
 /**
  * Volume, centre and inertia of the solids in a .step, .stp, .brep, .geo, .msh or .stl file.
  *
- * Of CAD by OpenCASCADE's integrals over the faces, of tetrahedra and of closed triangles by exact sums; the unit is as
- * in open_cad(), for a .stl it must be given.
+ * CAD is integrated by OpenCASCADE over the faces, tetrahedra and closed triangle surfaces by exact sums; the unit is
+ * that of open_cad(), for a .stl it must be given.
  *
- * gmsh works in a child process, see in_child().
+ * gmsh runs in a child process, see in_child().
  *
- * @throws std::invalid_argument as open_cad(), if a surface of triangles is open or solids overlap, if the child dies.
+ * @throws std::invalid_argument as open_cad() does, if triangles are open, solids overlap or the child dies.
  */
 CadBody measure_part(const CadSource &source);
 

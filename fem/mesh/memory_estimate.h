@@ -12,28 +12,29 @@ namespace gestell::fem
 double compactness(double volume, double skin_area);
 
 /**
- * Memory [byte] that mesh, assembly and reduction of a frame of n coordinates take at their peak,
+ * Peak memory [byte] of mesh, assembly and reduction of a frame with n DOFs,
  *
  *     0.22 GiB + 0.37 GiB N + 3.8 GiB kappa N^(4/3) + 50 kB n_a,     N = n / 100 000:
  *
- * the libraries; mesh, matrices and vectors of 40 modes, so many per coordinate; and the factor of C.  In nested
- * dissection of a body its entries grow like n^(4/3) (George, SIAM J. Numer. Anal. 10, 1973, 345-363); of plates the
- * separators are as much smaller as they are thinner, 2 V / A being their thickness.  Fitted to the press frame, 3 to 4
- * % above what was measured (docs/benchmarks.md); 3 % low for the ladder chassis, high by a tenth to a third for cubes
- * and beams.  Each of the n_a nodes that an interface averages has three rows with the 192 displacements of its group
- * in M, in C and in the factor: 48 and 50 kB were measured on plates with a whole face averaged.
+ * for the libraries; for mesh, matrices and vectors of 40 modes, proportional to the DOFs; and for the factor of C.
+ * With nested dissection of a body its entries grow like n^(4/3) (George, SIAM J. Numer. Anal. 10, 1973, 345-363); for
+ * plates the separators are smaller in proportion to the thickness 2 V / A.  The formula is fitted to the press frame,
+ * 3 to 4 % above the measured value (docs/benchmarks.md); it is 3 % too low for the ladder chassis, and a tenth to a
+ * third too high for cubes and beams.  Each of the n_a nodes averaged by an interface has three rows with the 192
+ * displacements of its group in M, in C and in the factor: 48 and 50 kB were measured on plates with a whole face
+ * averaged.
  */
 double reduction_memory(double n_coordinates, double kappa, double n_averaged = 0.);
 
-/// Nodes on an area [m^2] of quadratic triangles of this size [m]: two to a triangle.
+/// Number of nodes on an area [m^2] of quadratic triangles of this size [m]: two per triangle.
 double nodes_on(double area, double size);
 
 /// Number of DOFs of a quadratic mesh with this number of tetrahedra, within 20 %.
 double coordinates_of(double n_tetrahedra);
 
-/// @param what    needs it, such as "the mesh has 30000 coordinates"
-/// @param advice  what would do, such as "Use size = 0.1 m or more."
-/// @throws std::invalid_argument if more memory is needed than there is.
+/// @param what    subject of the message, such as "the mesh has 30000 coordinates"
+/// @param advice  remedy, such as "Use size = 0.1 m or more."
+/// @throws std::invalid_argument if more memory is needed than is available.
 void require_memory(const std::string &what, double needed, double available, const std::string &place,
                     const std::string &advice);
 

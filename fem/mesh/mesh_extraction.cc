@@ -25,7 +25,7 @@ namespace gestell::fem
 namespace
 {
 
-/// By the number of corners, which tells the kinds of cells apart.
+/// Number of cells by number of corners, which identifies their kind.
 std::map<int, std::size_t> count_by_corners(const CadModel &model)
 {
   std::map<int, std::size_t> count;
@@ -57,10 +57,10 @@ std::string in_words(const std::map<int, std::size_t> &count)
 }
 
 /**
- * Whether the solids of gmsh's mesh are made of tetrahedra alone (or have no cells), not of hexahedra, prisms, or
- * prisms with tetrahedra or hexahedra.
+ * Whether the solids of gmsh's mesh consist of tetrahedra only (or have no cells). Hexahedra, prisms, and prisms with
+ * tetrahedra or hexahedra are the alternative.
  *
- * @throws std::invalid_argument with the number of cells of each kind for others.
+ * @throws std::invalid_argument with the number of cells of each kind for other combinations.
  */
 bool only_tetrahedra(const CadModel &model, const std::string &head)
 {
@@ -102,7 +102,7 @@ struct CellFace
   }
 };
 
-/// Corners between which gmsh's further nodes of a quadratic tetrahedron stand.
+/// Edges on which the middle nodes of gmsh's quadratic tetrahedron lie.
 constexpr std::array<std::array<int, 2>, 6> quadratic_edges = {{{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}}};
 
 /// Calls visit(tags, their number) for every element of the entity; only simplices of the dimension are let through.
@@ -127,7 +127,7 @@ void for_each_simplex(int dim, int tag, const std::string &head, const Visit &vi
   }
 }
 
-/// Of a quadratic tetrahedron the middles of edges that are not straight.
+/// Stores the middle nodes of edges of a quadratic tetrahedron that are not straight.
 void keep_middles(Mesh &mesh, const std::array<int, 4> &cell, const std::size_t *tags, MeshNodes &nodes,
                   const std::string &head)
 {

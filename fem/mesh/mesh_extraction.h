@@ -13,10 +13,10 @@ namespace gestell::fem
  * (faces of one cell only) outward. Middle nodes of curved quadratic tetrahedra are kept. Meshes with hexahedra or
  * prisms are read by extract_mixed(). Unmerged coincident nodes and unused nodes become notes of the mesh.
  *
- * @param head  "<place>: <file>", heads messages
- * @throws std::invalid_argument if a solid has no cells, cells are no tetrahedra or twice the same point, more than two
- *         cells share a face, neighbouring cells are on the same side of their common face (one is inverted), or the
- * number of bodies is not the expected one.
+ * @param head  "<place>: <file>", prefix of messages
+ * @throws std::invalid_argument if a solid has no cells, cells are not tetrahedra or have a duplicate corner, more than
+ *         two cells share a face, adjacent cells are on the same side of their common face (one is inverted), or the
+ *         number of bodies is not the expected one.
  */
 ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const ExtractionOptions &options = {});
 

@@ -17,7 +17,7 @@ namespace gestell::fem
 namespace
 {
 
-/// Distance of a point from a box, at most that from what it holds.
+/// Distance of a point from a box, a lower bound of the distance from its contents.
 double distance(const Vector3 &x, const Vector3 &min, const Vector3 &max)
 {
   Vector3 apart{};
@@ -156,13 +156,13 @@ ShortEdges grade_from_short_edges(const WantedSize &wanted, const CadModel &mode
   };
   std::map<int, Alike> alike; // by the length of their sides, within a factor sqrt(2)
   ShortEdges           edges;
-  constexpr double     half = 0.5; // of the wanted size: sides below are short
+  constexpr double     half = 0.5; // of the wanted size: shorter sides are short
   for (const MeshedEdge &edge : edges_of_mesh(model.unit))
     if (edge.side > 0. && edge.side < half * wanted.without_bores(edge.at))
     {
       Alike &group                 = alike[static_cast<int>(std::floor(2. * std::log2(edge.side)))];
       group.side                   = std::min(group.side, edge.side);
-      constexpr int most_per_curve = 200; // points that stand for a curve in gmsh's field of distances
+      constexpr int most_per_curve = 200; // points that represent a curve in gmsh's distance field
       group.n_points               = std::clamp(edge.n_sides + 1, group.n_points, most_per_curve);
       group.curves.push_back(edge.tag);
       edges.shortest = edges.n++ > 0 ? std::min(edges.shortest, edge.side) : edge.side;

@@ -13,8 +13,8 @@ namespace gestell::fem
 {
 
 /**
- * Target sizes of a frame's mesh, without those derived by gmsh from the edges of a face: on a named surface
- * and on a bore their own, growing with the distance up to mesh.size, and those of a refinement.
+ * Target element sizes of a frame, without those derived by gmsh from the edges of a face: named surfaces and bores
+ * have their own size, which grows with the distance up to mesh.size; sizes of a refinement are included.
  */
 class WantedSize
 {
@@ -39,14 +39,14 @@ private:
 };
 
 /**
- * Triangles of gmsh's mesh of the surfaces over those that the wanted sizes ask for,
+ * Ratio of the number of triangles of gmsh's surface mesh to that required by the target sizes,
  *
  *     n / (sum of 4 A / (sqrt(3) w^2) + 2 n_e),
  *
- * A and w of each triangle, n_e the sides on edges of the model: that many a face needs at least, however narrow.
+ * with A and w of each triangle, and n_e the number of sides on edges of the model, which even a narrow face needs.
  *
- * gmsh carries the sizes of a face's edges through its inside: where many are short, as around a disc of 500 sides,
- * that is a multiple.
+ * gmsh interpolates the sizes of a face's edges into its interior: with many short edges, as around a disc with 500
+ * sides, the ratio is large.
  */
 double excess_of_triangles(const WantedSize &wanted, double unit);
 

@@ -29,7 +29,7 @@ std::vector<int> corners_of(const Mesh &mesh, std::size_t triangle)
 
 using Membership = std::vector<std::string>; // names of groups
 
-/// @param notes  takes a note on groups of which some faces are no outer faces of cells
+/// @param notes  takes a note on groups with faces that are not outer faces of cells
 std::vector<Membership> memberships(const ExtractedMesh &extracted, const MeshGroups &groups,
                                     std::vector<std::string> &notes)
 {

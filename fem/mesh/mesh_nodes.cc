@@ -17,13 +17,13 @@ namespace gestell::fem
 namespace
 {
 
-/// A unit vector at right angles to no row of nodes that a mesh is likely to have: ratios of its components are those
-/// of no small whole numbers.
+/// A unit vector that is not perpendicular to any row of nodes in a usual mesh: the ratios of its components are not
+/// those of small whole numbers.
 constexpr Vector3 oblique = {0.43762743542266774, 0.5624637353870905, 0.7015103521258826};
 
 } // namespace
 
-// Points no further apart than the distance are so along any unit vector, too: sorted along one, only those within a
+// Points within the distance are also within it along any unit vector. After sorting along one, only points within a
 // slab of that width are compared.
 std::vector<std::pair<int, int>> coincident(const std::vector<Point3> &points, double distance)
 {

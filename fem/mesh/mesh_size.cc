@@ -103,7 +103,7 @@ int add_field(const std::vector<int> &tags, double s, double h)
   field::setNumber(threshold, "InField", distance);
   field::setNumber(threshold, "SizeMin", s);
   field::setNumber(threshold, "SizeMax", h);
-  field::setNumber(threshold, "DistMin", 0.5 * s); // the points that stand for the face are that far apart
+  field::setNumber(threshold, "DistMin", 0.5 * s); // distance of the points that represent the face
   field::setNumber(threshold, "DistMax", 0.5 * s + std::max(h - s, 1e-9 * h) / size_growth);
   return threshold;
 }
@@ -178,7 +178,8 @@ void set_smallest_as_background(const std::vector<double> &fields)
 
 void set_refined_sizes(const SizeField &field, double unit)
 {
-  // From 4.9 on the callback replaces all other sizes, whose minimum it gets; before, the minimum of all counts.
+  // From gmsh 4.9 on the callback gets the minimum of all other sizes and replaces them; in earlier versions the
+  // minimum of all sizes, including the callback's, is used.
   gmsh::model::mesh::setSizeCallback(
       [field, unit](int, int, double x, double y, double z, auto... so_far) {
         return std::min({field({unit * x, unit * y, unit * z}) / unit, so_far...});

@@ -14,10 +14,10 @@ namespace gestell::fem
 /// Tags of the faces of each named surface.
 using Selection = std::map<std::string, std::vector<int>>;
 
-/// Elements grow from the size on a named surface to the global size by this much per length.
+/// Growth of the element size per distance, from the size on a named surface to the global size.
 constexpr double size_growth = 0.3;
 
-/// Elements around a full circle, at least, whatever the size: its area is then 4.5 % small, of 6 of them 17 %.
+/// Smallest number of elements around a full circle, independent of the size: its area is then 4.5 % too small.
 constexpr int elements_around_circle = 12;
 
 /// [m^2]
@@ -26,7 +26,7 @@ double skin_area(const std::vector<Face> &faces);
 /**
  * Expected number of tetrahedra, within a factor of about 1.5:
  *     max(10 V / h^3, 4.5 A / h^2),
- * the second where plates are thinner than h, and for a surface of size s and area a another 10 a / (2 growth s^2).
+ * the second term for plates thinner than h; a surface of size s and area a adds 10 a / (2 growth s^2).
  *
  * @param surface_size  [m] per name of `selection`
  */
@@ -36,11 +36,11 @@ double expected_cells(const CadModel &model, double size, const std::map<std::st
 /// The size [m], rounded up to two digits, for which about `n_cells` tetrahedra are expected.
 double size_for_cells(const CadModel &model, double n_cells);
 
-/// Sizes by name of surface, the patterns ("crown bearing *") of options.surface_size resolved; the smallest counts.
+/// Sizes by name of surface, with the patterns ("crown bearing *") of options.surface_size resolved (smallest).
 std::map<std::string, double> resolve_surface_sizes(const MeshOptions &options, const Selection &selection);
 
 /**
- * Tells gmsh the sizes.
+ * Sets the sizes in gmsh.
  *
  * @throws std::invalid_argument if the size is <= 0 or larger than the model, a surface is unknown or its size not in
  *         (0, size], or more than options.max_cells tetrahedra are expected; the message gives a suitable size.
@@ -51,10 +51,10 @@ void set_mesh_sizes(const CadModel &model, const MeshOptions &options, const Sel
 /// @param unit  length of gmsh's unit [m]
 void set_refined_sizes(const SizeField &field, double unit);
 
-/// gmsh's fields of the sizes on named surfaces.
+/// Creates gmsh's fields for the sizes on named surfaces.
 std::vector<double> surface_size_fields(const CadModel &model, const MeshOptions &options, const Selection &selection);
 
-/// The smallest of gmsh's fields counts everywhere.
+/// Makes the smallest of gmsh's fields the size everywhere.
 void set_smallest_as_background(const std::vector<double> &fields);
 
 } // namespace gestell::fem

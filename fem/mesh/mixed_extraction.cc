@@ -103,7 +103,7 @@ void read_cells(const CadModel &model, const std::string &head, MeshNodes &nodes
   orient(mesh);
 }
 
-/// Of a node between corners: how far it lies from where the map of the corners sends it.
+/// Distance of a middle node from its position on the cell with straight edges.
 struct Offset
 {
   double length = 0.; ///< [m]
@@ -148,7 +148,7 @@ Offset offset_of(const std::vector<Point3> &nodes, int n_corners, const std::vec
   return largest;
 }
 
-/// The largest of cells of higher order; cells are made of their corners alone.
+/// The largest offset in cells of higher order; this mesh uses only their corners.
 Offset largest_offset(const CadModel &model, const std::string &head, const MeshNodes &nodes)
 {
   Offset largest;
@@ -235,7 +235,7 @@ void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const 
                       : "; set it to that number."));
 }
 
-/// That no quadrilateral meets triangles: displacements would part there.
+/// Requires that no quadrilateral meets triangles, where displacements would be discontinuous.
 void require_matching(const Mesh &mesh, const std::string &head)
 {
   std::set<Key> halves;

@@ -126,7 +126,7 @@ void draw_skin(CadBody &part, const CadModel &model)
     {
       TriangleSurface surface = surface_of(solid.faces, model.unit);
       turn_outwards(surface);
-      // of the volume, by a skin of coarse triangles, which cut corners: an open skin encloses anything
+      // share of the volume inside a coarse skin, which cuts corners; an open skin encloses any volume
       constexpr double enclosed_share = 0.5;
       const bool closed = unmatched_edges(surface) == 0 && enclosed_volume(surface) > enclosed_share * solid.volume;
       if (!closed)
@@ -236,7 +236,7 @@ void require_near(const VolumeIntegrals &sum, const CadModel &model, const CadSo
                                 "the origin in the CAD program.");
 }
 
-/// That the second moments of the volume about its centre, tr(J)/2 I - J, are of a body: positive semidefinite.
+/// Requires second moments of the volume about its centre, tr(J)/2 I - J, that are positive semidefinite.
 void require_inertia_of_a_body(const Eigen::Matrix3d &J, const CadSource &source)
 {
   const Eigen::Vector3d principal =

@@ -37,7 +37,7 @@ Freedom along_curve(int tag)
 class Freedoms
 {
 public:
-  /// All points inside the entity (not those on its boundary) get this freedom.
+  /// Gives this freedom to all points inside the entity (not those on its boundary).
   void set(int dim, int tag, const Freedom &freedom)
   {
     std::vector<std::size_t> nodes;

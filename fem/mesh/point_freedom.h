@@ -9,7 +9,7 @@
 namespace gestell::fem
 {
 
-/// Freedom of the points of gmsh's mesh: three directions inside a solid, two on an outer plane, one on a straight edge
+/// Allowed directions of the points of gmsh's mesh: three inside a solid, two on an outer plane, one on a straight edge
 /// between faces, none on corners and on curved or inner surfaces.
 std::vector<Freedom> point_freedom(const CadModel &model, const std::vector<std::size_t> &node);
 

@@ -11,7 +11,7 @@
 namespace gestell::fem
 {
 
-/// Wanted size of the elements at a point [m].
+/// Target size of the elements at a point [m].
 struct SizePoint
 {
   Vector3 at;
@@ -22,7 +22,7 @@ struct SizePoint
 class SizeField
 {
 public:
-  /// @param points  none given: every place has the size `otherwise`, as have places far from all points.
+  /// @param points  if empty, the size is `otherwise` everywhere; it is also used far from all points.
   SizeField(std::vector<SizePoint> points, double otherwise);
 
   double operator()(const Vector3 &x) const;

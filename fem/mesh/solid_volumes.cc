@@ -38,8 +38,8 @@ void note_volumes(Mesh &mesh, const std::vector<Solid> &solids, const MeshOption
   for (std::size_t i = 0; i < volumes.size(); ++i)
   {
     const double off = solids[i].volume > 0. ? volumes[i] / solids[i].volume - 1. : 0.;
-    // Of the volume, from which on a note names the difference: it moves frequencies by half of that, and answers are
-    // commonly wanted to one percent.
+    // Share of the volume above which a note states the difference: frequencies change by half of it, and results are
+    // usually needed to one percent.
     constexpr double volume_off = 0.005;
     if (std::abs(off) > volume_off)
       mesh.notes.push_back(name_of(solids[i]) + ": the mesh has " + text(100. * std::abs(off)) + " % " +

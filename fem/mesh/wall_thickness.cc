@@ -93,7 +93,7 @@ private:
   std::unordered_map<std::uint64_t, std::vector<int>> bins_;
 };
 
-/// The value below which `share` of the weight lies; pairs are value and weight.
+/// The value below which `share` of the weight lies; each pair is value and weight.
 double quantile(std::vector<std::pair<double, double>> weighted, double share)
 {
   if (weighted.empty())
@@ -123,7 +123,7 @@ WallThickness wall_thickness(const Mesh &mesh)
   const Bins bins(triangles, sides);
 
   double                                 area = 0., thin = 0.;
-  std::vector<std::pair<double, double>> thicknesses, ratios; // with the area they hold for
+  std::vector<std::pair<double, double>> thicknesses, ratios; // with the area for which they apply
   for (const Triangle &triangle : triangles)
   {
     const Vector3 normal = triangle.twice_area();

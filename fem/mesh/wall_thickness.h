@@ -8,9 +8,9 @@ namespace gestell::fem
 /// Wall thickness of a mesh relative to its elements.
 struct WallThickness
 {
-  double thinnest     = 0.; ///< [m] wall, by area the fifth percentile
+  double thinnest     = 0.; ///< [m] wall, the fifth percentile by area
   double median_ratio = 0.; ///< element size over thickness, the median by area of walls thinner than the elements
-  double thin_share   = 0.; ///< of the surface on such walls
+  double thin_share   = 0.; ///< share of the surface with such walls
 };
 
 /**

@@ -64,7 +64,7 @@ void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpeci
   session.run([] { gmsh::model::mesh::generate(2); }, head, remedy);
   const WantedSize wanted(model, options, selection, refined);
   const double     excess  = excess_of_triangles(wanted, model.unit);
-  constexpr double runaway = 3.; // times the triangles wanted: short edges of the model rule the mesh
+  constexpr double runaway = 3.; // times the triangles wanted: short edges of the model govern the mesh
   const ShortEdges edges =
       excess > runaway && !script_has_sizes ? grade_from_short_edges(wanted, model, options, selection) : ShortEdges{};
   if (edges.n > 0)

@@ -13,14 +13,14 @@
 namespace gestell::fem
 {
 
-/// Place and file of a frame, which head its messages.
+/// Location and file of a frame, the prefix of its messages.
 std::string head_of(const FrameSpecification &specification);
 
-/// @param what  "the mesh has 30000 cells", which begins the message
+/// @param what  "the mesh has 30000 cells", beginning of the message
 /// @throws std::invalid_argument for more than mesh.max_cells
 void require_cells(double n, const std::string &what, const MeshOptions &options);
 
-/// Where the sizes of the surfaces' triangles come from.
+/// Origin of the sizes of the surface triangles.
 struct SurfaceSizes
 {
   MeshOptions              options;
@@ -33,15 +33,15 @@ struct SurfaceSizes
 void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpecification &specification,
                    const GmshSession &session, const SurfaceSizes &sizes);
 
-/// What meshes the volumes of gmsh's model on the mesh of their surfaces.
+/// Meshes the volumes of gmsh's model on the mesh of their surfaces.
 using VolumeMesher = std::function<void()>;
 
 /**
- * Delaunay, since gmsh's HXT numbers points by their address in memory: every run would give another mesh. HXT takes
- * its place where it fails, and a note of the model says so.
+ * Meshes volumes with Delaunay, because gmsh's HXT numbers points by their memory address, so that every run would give
+ * a different mesh.  HXT is used with a note of the model if Delaunay fails.
  *
  * @param delaunay  the first attempt; empty: that of gmsh.
- * @throws std::invalid_argument where both fail
+ * @throws std::invalid_argument if both fail
  */
 void mesh_volumes(CadModel &model, const FrameSpecification &specification, const GmshSession &session,
                   const VolumeMesher &delaunay = {});

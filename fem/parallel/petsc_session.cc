@@ -27,7 +27,7 @@ public:
     MPI_Initialized(&begun);
     if (begun)
       PETSC_COMM_WORLD = MPI_COMM_SELF;      // of several ranks each starts when it comes to that
-    setenv("OMPI_MCA_plm_rsh_agent", "", 0); // one process needs no ssh, and MPI ends the program where there is none
+    setenv("OMPI_MCA_plm_rsh_agent", "", 0); // one process needs no ssh; MPI would exit without it
     if (SlepcInitialize(&count, &arguments, nullptr, nullptr) != 0)
       throw std::runtime_error("petsc_session: SLEPc could not be started; check the installation of libslepc-real.");
 

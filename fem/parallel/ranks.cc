@@ -18,7 +18,7 @@ using Kind = AgreedFailure::Kind;
 
 enum Tag
 {
-  tag_order = 7070, // beside those of libraries on the same communicator
+  tag_order = 7070, // other than those of libraries on the same communicator
   tag_count,
   tag_values
 };

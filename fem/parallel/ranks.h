@@ -74,16 +74,16 @@ public:
   void broadcast(std::string &text) const;
   void broadcast(double *values, std::ptrdiff_t count) const { broadcast_bytes(values, sizeof(double) * count); }
 
-  /// Rank 0: x <- the sum of x on all ranks, in the order of these; not changed on others.
+  /// Rank 0: x <- the sum of x on all ranks, in the order of ranks; unchanged on others.
   void sum_on_first(double *x, std::ptrdiff_t count) const;
-  /// The same sum on all, to the last bit.
+  /// The same sum on all ranks, identical in every bit.
   void sum(double *x, std::ptrdiff_t count) const
   {
     sum_on_first(x, count);
     broadcast(x, count);
   }
 
-  /// To one other rank, and there.
+  /// To one other rank, which must receive.
   template <typename T>
   void send(const std::vector<T> &values, int to) const
   {
@@ -98,7 +98,7 @@ public:
     return values;
   }
 
-  /// Numbers of a known count, to one other rank; leaves when they may be overwritten.
+  /// Numbers of a known count, to one other rank; returns when they may be overwritten.
   void send(const double *values, std::ptrdiff_t count, int to) const;
   void receive(double *values, std::ptrdiff_t count, int from) const;
 

@@ -91,7 +91,7 @@ private:
   void all(std::array<T, m> *first, std::size_t n)
   {
     if constexpr (is_number<T>)
-      self().run(n > 0 ? first->data() : nullptr, n * m); // one after the other
+      self().run(n > 0 ? first->data() : nullptr, n * m); // consecutive
     else
       for (std::size_t i = 0; i < n; ++i)
         one(first[i]);
@@ -121,7 +121,7 @@ private:
   std::string bytes_;
 };
 
-/// @throws std::runtime_error where the bytes are too few
+/// @throws std::runtime_error if there are too few bytes
 class ByteReader : public Archive<ByteReader>
 {
 public:
@@ -138,7 +138,7 @@ public:
   void size(std::size_t &n)
   {
     run(&n, 1);
-    require(n <= bytes_.size() - at_); // nothing has less than a byte
+    require(n <= bytes_.size() - at_); // every member takes at least one byte
   }
 
 private:

@@ -81,13 +81,13 @@ void limit(__rlimit_resource_t resource, double value)
   ::setrlimit(resource, &now);
 }
 
-/// The child's side: what it tells and what it is held to.
+/// The child's side: its messages and its limits.
 class Child
 {
 public:
   Child(const ChildTask &task, MessageWriter &out, const TemporaryDirectory &folder) : task_(task), out_(out)
   {
-    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) // the parent says when to stop
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) // the parent decides when to stop
       std::signal(number, SIG_IGN);
     for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU})
       std::signal(number, SIG_DFL);
@@ -178,7 +178,7 @@ public:
   bool listen(const EndedBySignal &ended)
   {
     pollfd polled[] = {{messages_, POLLIN, 0}, {words_, POLLIN, 0}};
-    while (polled[0].fd >= 0 && !answer_) // a child of another thread may hold the other end
+    while (polled[0].fd >= 0 && !answer_) // a child of another thread may have the other end open
     {
       constexpr std::chrono::milliseconds told_again{100}; // a tenth of a second: what a person sees as steady
       const int                           n = ::poll(polled, 2, int(told_again.count()));
@@ -362,7 +362,7 @@ void tell_out_of_memory()
     MessageWriter out(messages);
     code = Child(task, out, folder).run(work);
   }
-  catch (...) // no memory to tell it in
+  catch (...) // no memory to report it
   {
   }
   ::_exit(code);

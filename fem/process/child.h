@@ -9,19 +9,19 @@
 namespace gestell::fem
 {
 
-/// Called with the name of the phase that begins and the share done, 0..1 (negative: unknown).
+/// Called with the name of the phase that begins and the completed share, 0..1 (negative: unknown).
 using ChildProgress = std::function<void(const std::string &phase, double share)>;
 
-/// What is done in a child, for its messages.
+/// Description of the work in a child, for its messages.
 struct ChildTask
 {
   std::string   path;             ///< of the file that is read
   std::string   head;             ///< "<place>: <file>"
-  std::string   phase;            ///< the phase that reads, the first; the limits end when another phase is reported
+  std::string   phase;            ///< the first phase, which reads; the limits end when another phase is reported
   ReadingLimits limits;           ///< of reading
   bool          alone   = true;   ///< false: no child, see in_one_process()
-  std::string   library = "gmsh"; ///< that reads, for messages
-  std::string   way_out = "the file is probably damaged: export the model again, or in another format"; ///< of reading
+  std::string   library = "gmsh"; ///< reading library, for messages
+  std::string   way_out = "the file is probably damaged: export the model again, or in another format"; ///< remedy
 };
 
 /// Whether the environment variable GESTELL_ONE_PROCESS is set (not to 0): for debuggers and limited process counts.
@@ -36,9 +36,9 @@ bool in_one_process();
  *
  * @param progress  called here with the progress of `work`, repeated ten times a second; if it throws, the child is
  * killed and the exception propagates.
- * @return          what `work` returned
- * @throws what `work` throws: std::invalid_argument, std::bad_alloc, and for all others std::runtime_error with their
- * message.
+ * @return          the result of `work`
+ * @throws the exceptions of `work`: std::invalid_argument, std::bad_alloc, and for all others std::runtime_error with
+ * their message.
  * @throws std::invalid_argument with cause and remedy if the child dies, or its first phase exceeds its limits.
  */
 std::string bytes_from_child(const ChildTask &task, const ChildProgress &progress,

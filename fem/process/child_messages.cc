@@ -48,7 +48,7 @@ std::pair<double, std::string> progress_in(const std::string &text)
 
 bool MessageReader::read_some(int pipe)
 {
-  constexpr std::size_t once = 1 << 16; // bytes: a pipe of Linux holds as many
+  constexpr std::size_t once = 1 << 16; // bytes: the capacity of a pipe in Linux
   if (at_ > 0 && at_ == bytes_.size())
   {
     bytes_.clear();

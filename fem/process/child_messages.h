@@ -11,14 +11,14 @@ namespace gestell::fem
 enum class ChildMessage : int
 {
   progress,
-  out_of_memory, ///< an allocation failed, whatever comes of it
+  out_of_memory, ///< an allocation failed, regardless of the consequences
   result,
   invalid_argument,
   bad_alloc,
   runtime_error
 };
 
-/// Stands before the text of each message.
+/// Precedes the text of each message.
 struct MessageHead
 {
   ChildMessage kind;
@@ -31,7 +31,7 @@ struct TextMessage
   std::string  text;
 };
 
-/// Into a pipe.
+/// Writes into a pipe.
 class MessageWriter
 {
 public:
@@ -46,17 +46,17 @@ private:
   int pipe_;
 };
 
-/// Share and phase in the text of a message of progress.
+/// Share and phase from the text of a progress message.
 std::pair<double, std::string> progress_in(const std::string &text);
 
-/// From a pipe.
+/// Reads from a pipe.
 class MessageReader
 {
 public:
-  /// Reads what is there; false at the end.
+  /// Reads the available bytes; false at the end.
   bool read_some(int pipe);
 
-  /// The next whole message, if there is one.
+  /// The next complete message, if there is one.
   std::optional<TextMessage> next();
 
 private:

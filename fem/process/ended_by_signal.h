@@ -4,9 +4,9 @@ namespace gestell::fem
 {
 
 /**
- * While this lives, signals that would end the process at once (SIGINT, SIGTERM, SIGHUP without a handler) are recorded
- * instead, so that children and temporary files can be removed first; with several instances in different threads the
- * first records them.
+ * During its lifetime, signals that would end the process at once (SIGINT, SIGTERM, SIGHUP without a handler) are
+ * recorded instead, so that children and temporary files can be removed first; with several instances in different
+ * threads the first records them.
  */
 class EndedBySignal
 {

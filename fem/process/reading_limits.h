@@ -9,20 +9,19 @@ namespace gestell::fem
 struct ReadingLimits
 {
   double seconds = 0.; ///< of processor time; 0: no limit
-  double bytes   = 0.; ///< of memory beyond what the process has; 0: no limit
+  double bytes   = 0.; ///< of memory in addition to that of the process; 0: no limit
 };
 
-/// Kind of demand of a file.
+/// How a file determines the work to read it.
 enum class FileContent
 {
-  geometry, ///< as much as it has bytes
+  geometry, ///< proportional to its size
   program   ///< it draws, meshes, or names other files
 };
 
 /**
- * Limits by the size S of the file: 300 s + 60 s per MB of processor time and 2 GB + 400 S of memory, of programs
- * 1200 s at least and all the memory there is, never below 0.5 GB.  A STEP file of 0.5 MB takes less than a second and
- * 0.1 GB.
+ * Limits from the size S of the file: 300 s + 60 s per MB of processor time and 2 GB + 400 S of memory; for programs at
+ * least 1200 s and all available memory; never below 0.5 GB. A STEP file of 0.5 MB takes less than a second and 0.1 GB.
  *
  * The environment variable GESTELL_READING_SECONDS sets another time, 0 for no limit.
  *

@@ -27,7 +27,7 @@ namespace gestell::fem
 namespace
 {
 
-/// What the cells of a frame add up to.
+/// Sums over the cells of a frame.
 struct AssembledMatrices
 {
   SparseMatrix    C, M;              ///< [n x n] in the coordinates of the frame
@@ -56,7 +56,7 @@ AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &mate
   return sums;
 }
 
-/// Skin of the frame with its corners as points; tied corners move through their interfaces, held ones rest.
+/// Skin of the frame with its corners as points; tied corners move with their interfaces, fixed corners do not move.
 Picture skin_picture(const QuadraticMesh &mesh, const AffineConstraints &affine)
 {
   Picture          picture;
@@ -116,7 +116,7 @@ std::vector<Interface> make_interfaces(const std::vector<CoupledPatch> &coupled,
   return result;
 }
 
-/// Nodes with coordinates: of masses with surfaces of their own, then of interfaces, which thus stand last in q.
+/// Nodes with coordinates: those of masses with surfaces of their own, then those of interfaces, which are last in q.
 std::vector<InterfaceSpecification> coupled_nodes(const FrameSpecification &specification)
 {
   require_valid(specification.masses, specification.interfaces);
@@ -125,7 +125,7 @@ std::vector<InterfaceSpecification> coupled_nodes(const FrameSpecification &spec
   return nodes;
 }
 
-/// What the matrices of a frame are made of.
+/// The inputs of the matrices of a frame.
 struct Ingredients
 {
   const FrameSpecification          &specification;
@@ -151,7 +151,7 @@ void weigh(const Ingredients &of, const MassProperties &cells, const Eigen::Vect
   Eigen::Map<Eigen::Vector3d>(frame.centre.data()) = frame.facts.whole.centre;
 }
 
-/// C of the cells at clamped supports, whose rows there are those of the whole.
+/// C of the cells at clamped supports; its rows at clamped nodes equal those of the whole matrix.
 BlockMatrix stiffness_at_supports(const Ingredients &of)
 {
   std::vector<char> clamped(of.mesh.n_nodes(), 0);
@@ -219,7 +219,7 @@ MultipointConstraints constrain(const QuadraticMesh &mesh, const std::vector<Sup
   return constraints;
 }
 
-/// What alpha M does to the motions of the whole frame, where nothing holds these; none if it does nothing.
+/// States the effect of alpha M on rigid-body motions of an unsupported frame; none if there is no effect.
 std::vector<std::string> rayleigh_at_large(const FrameSpecification &specification)
 {
   if (!(specification.rayleigh_mass > 0.) || !specification.supports.empty())

@@ -17,15 +17,13 @@ namespace gestell::fem
  *     M q'' + B q' + C q = f,    u = G q,    M = G^T M_full G  and so on
  *
  * q contains the displacements of all nodes that are neither clamped nor tied, then inner coordinates of averaged
- * surfaces, then coordinates (ux uy uz rx ry rz; of a node of the mesh ux uy uz) for each attached mass with surfaces
- * of its own and for each interface in the order of the specification.  B contains the dampers of the foundations;
- * modal damping remains a ratio. Outputs: "support.NAME.x|y|z" and "cut.NAME" [N], see support_forces() and
- * cut_force().
+ * surfaces, then coordinates (ux uy uz rx ry rz; for a node of the mesh ux uy uz) for each attached mass with its own
+ * surfaces and for each interface in the order of the specification.  B contains the dampers of the foundations; modal
+ * damping remains a ratio. Outputs: "support.NAME.x|y|z" and "cut.NAME" [N], see support_forces() and cut_force().
  *
- * Uses all of the specification but CAD file, mesh options and selectors.  Initialises PETSc
- * (petsc_session()).
+ * Uses the specification except CAD file, mesh options and selectors.  Initialises PETSc (petsc_session()).
  *
- * @throws std::invalid_argument for wrong input, naming place, value, need and remedy.
+ * @throws std::invalid_argument for wrong input, with location, value, requirement and remedy.
  */
 FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification);
 

@@ -15,7 +15,7 @@ namespace gestell::fem
 namespace
 {
 
-/// eta_K^2 for every field: both stresses are polynomials that values at the nodes hold.
+/// eta_K^2 for every field: both stresses are polynomials that nodal values determine.
 Eigen::RowVectorXd of_cell(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u,
                            const Stresses &smooth)
 {
@@ -57,7 +57,7 @@ Eigen::MatrixXd MeshError::of_cells(const Eigen::Ref<const Eigen::MatrixXd> &q) 
 {
   const std::vector<std::vector<int>> alike = cells_alike(materials_, mesh_.n_cells());
   Eigen::MatrixXd                     result(mesh_.n_cells(), q.cols());
-  constexpr int                       fields_once = 6; // fields whose stresses are held in memory at a time
+  constexpr int                       fields_once = 6; // fields whose stresses are in memory at the same time
   for (int first = 0; first < q.cols(); first += fields_once)
   {
     const int   fields = std::min<int>(fields_once, static_cast<int>(q.cols()) - first);

@@ -62,7 +62,7 @@ Eigen::Vector3d point(const QuadraticMesh &mesh, int node)
   return Eigen::Map<const Eigen::Vector3d>(mesh.points[node].data());
 }
 
-/// Places and stresses of all samples; those of cell i of a list stand from begin[i] on.
+/// Positions and stresses of all samples; those of cell i of a list start at begin[i].
 struct Samples
 {
   std::vector<Eigen::Index> begin{0};
@@ -218,7 +218,7 @@ public:
 
 private:
   const QuadraticMesh &mesh_;
-  std::vector<int>     seen_; // by which corner
+  std::vector<int>     seen_; // last corner that took the node
 };
 
 } // namespace
@@ -241,7 +241,7 @@ Stresses recovered_stresses(const QuadraticMesh &mesh, const Material &material,
   for (int corner = 0; corner < mesh.n_nodes(); ++corner)
   {
     if (around.begin[corner] == around.begin[corner + 1])
-      continue; // no corner
+      continue; // not a corner
     const PatchFit fit(samples, patch_of(mesh, around, corner, samples), point(mesh, corner));
     takers.collect(around, corner);
     Eigen::Matrix3Xd x(3, takers.nodes.size());

@@ -16,7 +16,7 @@ using Stresses = Eigen::MatrixXd;
 /// Displacements [m] of several fields: three rows per field, one column per node of the mesh.
 using NodalFields = Eigen::MatrixXd;
 
-/// Stresses at the nodes of one cell, as the cell alone has them [6 f x nodes].
+/// Stresses at the nodes of one cell, from this cell alone [6 f x nodes].
 Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u);
 
 /**
@@ -24,7 +24,7 @@ Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int
  * patch recovery.
  *
  * Around every corner of a cell a quadratic polynomial is fitted by least squares to the stresses at the Gauss points
- * of the cells there (and of their neighbours, where they are few).  A corner gets the value of its own fit, any other
+ * of the cells there (and of their neighbours, if there are few).  A corner has the value of its own fit, any other
  * node the mean of the fits of its corners.
  *
  * Source: Zienkiewicz & Zhu, Int. J. Num. Meth. Eng. 33, 1992, 1331-1364.

@@ -26,7 +26,7 @@ Sparse embedded(const Sparse &P, const SparseMatrix &A)
   return P * Sparse(Sparse(A) * Sparse(P.transpose()));
 }
 
-/// Foundations alone, which act on the quadratics.
+/// Whether the output reads quadratic displacements only: those of foundations, which act on these.
 bool read_off_quadratics(const FrameOutput &output, const FrameSpecification &specification)
 {
   return std::any_of(specification.supports.begin(), specification.supports.end(),
@@ -58,7 +58,7 @@ FrameMatrices raised_matrices(const Discretisation &quadratic, const FrameSpecif
     interface.renumber([&](int i) { return degree.place[std::size_t(i)]; });
   raised.translations  = P * frame.translations;
   raised.rigid_motions = P * frame.rigid_motions;
-  // Of the cubics the load as if nothing were clamped, of the quadratics their own.
+  // The cubic coordinates get the load of an unclamped frame, the quadratic ones their own load.
   const Eigen::MatrixXd own = P * frame.acceleration_load, all = degree.M * raised.translations;
   const Eigen::VectorXd is_own = P * Eigen::VectorXd::Ones(P.cols());
   raised.acceleration_load     = (is_own.array() > 0.).replicate(1, 3).select(own, all);

@@ -10,9 +10,9 @@ namespace gestell::fem
  *
  *     M3, C3 by MeshError::raised(),   B3 = P B P^T + beta (C3 - P C P^T) + alpha (M3 - P M P^T),
  *
- * P [n3 x n] puts the coordinates of the quadratics at their places; interfaces, rigid motions, picture and outputs go
- * there with them.  Forces through cuts and on clamped supports, which include cubic parts, are omitted, as are
- * stresses.
+ * where P [n3 x n] maps the coordinates of the quadratics to their new indices; interfaces, rigid-body modes, picture
+ * and outputs are renumbered with them.  Forces through cuts and on clamped supports, which include cubic parts, are
+ * omitted, as are stresses.
  *
  * @param specification  its Rayleigh damping is alpha and beta.
  *

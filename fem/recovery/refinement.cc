@@ -46,7 +46,7 @@ Eigen::VectorXd sizes_for(double lambda, const Eigen::VectorXd &h, const Eigen::
   return size;
 }
 
-/// Cells that take the place of those of now.
+/// Number of new cells that replace the present ones.
 double cells_for(const Eigen::VectorXd &size, const Eigen::VectorXd &h)
 {
   return (h.array() / size.array()).pow(dimension).sum();
@@ -78,7 +78,7 @@ std::vector<SizePoint> refine(const MeshError &error, const Eigen::VectorXd &eta
   const QuadraticMesh &mesh = error.mesh();
   const auto           n    = static_cast<Eigen::Index>(mesh.cells.size());
   Eigen::VectorXd      h(n), shape(n);
-  const double least = 1e-6 * eta2.sum() / static_cast<double>(n); // a cell without error may grow as far as any
+  const double         least = 1e-6 * eta2.sum() / static_cast<double>(n); // limits the growth of cells without error
   for (Eigen::Index i = 0; i < n; ++i)
   {
     h[i]     = cell_size(mesh, mesh.cells[i]);

@@ -10,14 +10,14 @@
 namespace gestell::fem
 {
 
-/// p of eta_K^2 ~ h^(2 p) as refine() supposes it.
+/// p of eta_K^2 ~ h^(2 p), as assumed by refine().
 constexpr double order_of_refinement = 1.5;
 
 /// Target and limits of refine().
 struct Refinement
 {
   double growth   = 3.; ///< ratio of the new number of cells to the present one, > 1
-  double largest  = 0.; ///< [m] no element may be larger
+  double largest  = 0.; ///< [m] upper limit of the element size
   double smallest = 0.; ///< [m]
 };
 

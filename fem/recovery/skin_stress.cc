@@ -31,7 +31,7 @@ Triple sorted(Triple corners)
   return corners;
 }
 
-/// Corners of the triangles that may stand for a face of a cell: local nodes, of a quadrilateral along both diagonals.
+/// Corners of the triangles that may represent a face of a cell, as local nodes; both diagonals of quadrilaterals.
 std::vector<Triple> face_triangles(CellKind kind)
 {
   std::vector<Triple> triangles;
@@ -67,13 +67,13 @@ std::map<Triple, int> owners(const QuadraticMesh &mesh)
       if (const auto found = owner.find(sorted({nodes[a], nodes[b], nodes[c]})); found != owner.end())
         found->second = cell;
     }
-  std::map<Triple, int> in_order; // as the skin names its corners
+  std::map<Triple, int> in_order; // in the order of the skin's corners
   for (const auto &face : mesh.skin)
     in_order[{face[0], face[1], face[2]}] = owner.at(sorted({face[0], face[1], face[2]}));
   return in_order;
 }
 
-/// dN_a/dx at the corners of a cell, as far as stresses are to be trusted there.
+/// dN_a/dx at the corners of a cell where stresses are reliable.
 struct CornerGradients
 {
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 27, 3>;

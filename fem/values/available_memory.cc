@@ -34,7 +34,7 @@ double of_system()
   return INFINITY;
 }
 
-/// What the system keeps of files for the group, and gives back where memory is needed.
+/// File caches of the group, which the system frees when memory is needed.
 double given_back()
 {
   std::ifstream in("/sys/fs/cgroup/memory.stat");

@@ -5,10 +5,10 @@
 namespace gestell::fem
 {
 
-/// Whether scripts of gmsh may do all that its language allows: run programs, write files, read any.
+/// Whether gmsh scripts may use the whole language: run programs, write files, read any file.
 enum class Scripts
 {
-  harmless, ///< no: they are judged first
+  harmless, ///< no: they are checked first
   trusted
 };
 
@@ -16,8 +16,8 @@ enum class Scripts
 struct CadSource
 {
   std::string path;
-  double      unit = 0.; ///< length unit of a file without one [m]; 0: the file knows
-  std::string place;     ///< heads messages
+  double      unit = 0.; ///< length unit of a file without one [m]; 0: from the file
+  std::string place;     ///< prefix of messages
   Scripts     scripts = Scripts::harmless;
 };
 

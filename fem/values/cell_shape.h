@@ -18,9 +18,9 @@ struct CellShape
 {
   int                             n_corners;
   std::vector<std::array<int, 2>> edges;
-  std::vector<std::vector<int>>   faces;  ///< seen from outside counterclockwise
-  std::vector<std::array<int, 3>> triads; ///< of each corner the ends of its edges, right-handed
-  std::vector<std::array<int, 4>> pieces; ///< positively oriented tetrahedra that make up the cell
+  std::vector<std::vector<int>>   faces;  ///< counterclockwise as seen from outside
+  std::vector<std::array<int, 3>> triads; ///< for each corner the ends of its edges, right-handed
+  std::vector<std::array<int, 4>> pieces; ///< positively oriented tetrahedra that form the cell
 };
 
 const CellShape &cell_shape(CellKind kind);

@@ -57,8 +57,8 @@ struct FrameOutput
   std::string     unit; ///< "N"
   Eigen::VectorXd on_q; // [n]
   Eigen::VectorXd on_v; // [n]
-  /// [kg] direct share of a uniform acceleration field g, such as gravity: weight carried by a support without motion
-  /// of q, and the static deflection that is not in the basis of a reduced frame.
+  /// [kg] direct share of a uniform acceleration field g, such as gravity: weight on a support without motion of q, and
+  /// the static deflection outside the basis of a reduced frame.
   Eigen::Vector3d under_acceleration = Eigen::Vector3d::Zero();
   Eigen::VectorXd on_a{};        ///< [n], or empty: none. For forces in joints, which include inertia next to them
   double          constant = 0.; ///< of the frame at q = 0, such as the prestress of a tie rod
@@ -109,8 +109,8 @@ struct FrameMatrices
   ModalDamping           modal_damping;       ///< empty until computed
   std::vector<Interface> interfaces;
   Eigen::MatrixXd        translations; // [n x 3] q of a unit translation of the whole frame in x, y, z
-  /// [n x 3] load of a unit acceleration field (gravity); M * translations, and exactly so where supports are clamped.
-  /// Empty in frames given by matrices: then M * translations.
+  /// [n x 3] load of a unit acceleration field (gravity); M * translations, exact also if supports are clamped.  Empty
+  /// in frames given by matrices: then M * translations.
   Eigen::MatrixXd acceleration_load;
   /// [n x 6] q of the rigid-body modes ux uy uz rx ry rz about `centre`, or empty if unknown.
   Eigen::MatrixXd          rigid_motions;

@@ -16,7 +16,7 @@
 namespace gestell::fem
 {
 
-/// Surface of the CAD model, by what a user can see of it.  All given conditions must hold.
+/// Surface of the CAD model, selected by visible properties.  All given conditions must be satisfied.
 struct SurfaceSelector
 {
   struct Cylinder
@@ -39,8 +39,8 @@ struct SurfaceSelector
   std::optional<Box>         box;
   std::optional<std::string> group;     ///< physical group or STEP name
   std::optional<double>      tolerance; ///< [m]; default 1e-4 of the model's diagonal
-  int                        faces = 1; ///< number of CAD faces expected; 0 = any number but none
-  std::string                place;     ///< "press.toml:31: frame.surface.feet", heads messages
+  int                        faces = 1; ///< number of CAD faces expected; 0 = any number, at least one
+  std::string                place;     ///< "press.toml:31: frame.surface.feet", prefix of messages
 };
 
 struct Material
@@ -65,7 +65,7 @@ struct Support
   std::string              name;
   std::vector<std::string> surfaces;
   SupportKind              kind = SupportKind::clamped;
-  std::array<bool, 3>      held{true, true, true}; ///< clamped: which displacements (x, y, z)
+  std::array<bool, 3>      held{true, true, true}; ///< clamped: fixed displacements (x, y, z)
   Vector3                  stiffness{};            ///< foundation: [N/m], per area [N/m^3]
   Vector3                  damping{};              ///< foundation: [N s/m], per area [N s/m^3]
   std::string              place;
@@ -77,13 +77,13 @@ struct Support
 enum class InterfaceCoupling
 {
   rigid,    ///< RBE2: the surface moves as a rigid body with the node
-  flexible, ///< the same, and the surface deforms in polynomials of `degree` (face_fields.h); of joints of parts
-  average,  ///< RBE3: the node moves as the area-weighted mean of the surface, the surface stays flexible
+  flexible, ///< like `rigid`, with surface deformations in polynomials of `degree` (face_fields.h); for joints of parts
+  average,  ///< RBE3: the node moves as the area-weighted mean of the surface, which remains flexible
   point,    ///< the point of the surface nearest to `position`: average over the triangles around it
   node      ///< the corner of the mesh nearest to `position`, on the surfaces or, without any, on the whole skin
 };
 
-/// One node with six coordinates (ux uy uz rx ry rz) tied to surfaces; of `node` only three (ux uy uz).
+/// One node with six coordinates (ux uy uz rx ry rz) tied to surfaces; for `node` only three (ux uy uz).
 struct InterfaceSpecification
 {
   std::string              name;
@@ -91,9 +91,9 @@ struct InterfaceSpecification
   InterfaceCoupling        coupling = InterfaceCoupling::rigid;
   std::optional<Vector3>   position; ///< [m]; default: centroid of the surfaces
   std::string              place;
-  double                   radius = 0.;          ///< of a point [m]: triangles within it; 0: those that meet there
-  int                      degree = 0;           ///< of a flexible one
-  std::string              what   = "interface"; ///< what messages call its owner
+  double                   radius = 0.;          ///< of a point [m]: triangles within it; 0: those that share it
+  int                      degree = 0;           ///< for `flexible`
+  std::string              what   = "interface"; ///< name of its owner in messages
 };
 
 /// A rigid body fastened to the frame, such as a motor or a counterweight: to surfaces, or to the node of an interface.
@@ -103,7 +103,7 @@ struct AttachedMass
   double                   mass    = 0.;                      ///< [kg]
   Eigen::Matrix3d          inertia = Eigen::Matrix3d::Zero(); ///< about its centre of mass, global axes [kg m^2]
   std::optional<Vector3>   centre;    ///< of mass [m]; default: the node of the interface, the centroid of the surfaces
-  std::string              interface; ///< that carries it; empty: it has surfaces
+  std::string              interface; ///< that carries it; empty: it has its own surfaces
   std::vector<std::string> surfaces;
   InterfaceCoupling        coupling = InterfaceCoupling::rigid; ///< to the surfaces
   std::string              place;
@@ -118,18 +118,18 @@ struct CutSpecification
   std::string place;
 };
 
-/// What becomes of the common part of solids that overlap.
+/// Treatment of the common part of overlapping solids.
 enum class Overlaps
 {
   refused,
   once ///< it belongs to the solid that comes first in the file
 };
 
-/// How solids of plates are meshed.
+/// Meshing of solids that consist of plates.
 enum class Plates
 {
-  tetrahedra, ///< as all others
-  swept       ///< in hexahedra and prisms through their thickness, where the solids can be divided so
+  tetrahedra, ///< like all others
+  swept       ///< hexahedra and prisms through the thickness, if the solids can be divided
 };
 
 struct MeshOptions
@@ -137,24 +137,24 @@ struct MeshOptions
   double                        size = 0.;    ///< [m]
   std::map<std::string, double> surface_size; ///< [m] on named surfaces, graded outwards
   double                        max_cells = 2e6;
-  double                        gap       = 0.; ///< [m]: solids at most that far apart are joined
-  int                           bodies    = 1;  ///< expected number of bodies that do not hang together
+  double                        gap       = 0.; ///< [m]: solids within this distance are joined
+  int                           bodies    = 1;  ///< expected number of unconnected bodies
   double                        defeature = 0.; ///< [m]: faces and edges smaller than this are removed
   Overlaps                      overlaps  = Overlaps::refused;
   bool                          curved    = false; ///< sides follow the geometry
   Plates                        plates    = Plates::tetrahedra;
-  int                           layers    = 1; ///< of cells through a swept plate, at least
+  int                           layers    = 1; ///< smallest number of cells through a swept plate
   std::string                   place;
 };
 
-/// All that defines a frame made from CAD or from a mesh.
+/// Complete definition of a frame from CAD or from a mesh.
 struct FrameSpecification
 {
   std::string cad;       ///< .step .stp .brep .geo .msh .inp; absolute path
-  double      unit = 0.; ///< length unit of a file without one [m]; 0: the file knows
+  double      unit = 0.; ///< length unit of a file without one [m]; 0: from the file
   MeshOptions mesh;
-  Material    material; ///< of all solids but those in `materials`
-  /// By the name of a solid or a pattern of names ('*', '?'); of several that fit the last counts.
+  Material    material; ///< of all solids except those in `materials`
+  /// By the name of a solid or a pattern of names ('*', '?'); the last match is used.
   std::vector<std::pair<std::string, Material>> materials;
   ModalRatios                                   modal_damping_ratio;
   double                                 rayleigh_mass = 0.; ///< alpha [1/s] of B = alpha M + beta C of the material
@@ -164,7 +164,7 @@ struct FrameSpecification
   std::vector<InterfaceSpecification>    interfaces;
   std::vector<AttachedMass>              masses;
   std::vector<CutSpecification>          cuts;
-  bool                                   stress  = false; ///< to be recovered
+  bool                                   stress  = false; ///< stress recovery is requested
   Scripts                                scripts = Scripts::harmless;
   std::string                            place; ///< "press.toml:12: frame"
 };

@@ -27,7 +27,7 @@ bool is_digit(char c)
   return c >= '0' && c <= '9';
 }
 
-/// Where gmsh skips, it compares letters without looking at what they belong to.
+/// Whether the text ends a skipped block: gmsh compares letters there, without regard to their context.
 bool ends_a_block(const std::string &text)
 {
   static const std::regex words("(Return|EndFor|EndIf|ElseIf|Else)(?![A-Za-z_])");

@@ -30,7 +30,7 @@ std::vector<std::string> fields_of(const std::string &line)
     fields.push_back(trimmed(line.substr(from, comma - from)));
     from = comma + 1;
   }
-  while (!fields.empty() && fields.back().empty()) // a line that ends with a comma goes on in the next
+  while (!fields.empty() && fields.back().empty()) // after a comma the next line continues
     fields.pop_back();
   return fields;
 }

@@ -12,8 +12,8 @@ namespace gestell::fem
 
 using Point3 = std::array<double, 3>; ///< [m]
 
-/// Mesh of a frame in tetrahedra, hexahedra and prisms, which are counted in this order; SI.  Edges are straight but
-/// for those with a middle.  Faces are ordered so that their normal points outwards.
+/// Mesh of a frame with tetrahedra, hexahedra and prisms, numbered in this order; SI.  Edges are straight except those
+/// in `middles`.  Faces are ordered so that their normal points outwards.
 struct Mesh
 {
   std::vector<Point3>             points;
@@ -24,15 +24,15 @@ struct Mesh
   std::vector<std::array<int, 3>> skin;       ///< every outer triangle
   std::vector<std::array<int, 4>>
                            skin_quads; ///< outer quadrilaterals; i = abcd has the triangles 2 i = abc, 2 i + 1 = acd
-  std::vector<std::string> solids;     ///< names, as in the CAD file where it has them
+  std::vector<std::string> solids;     ///< names, from the CAD file if it has them
 
-  /// Of a mesh of tetrahedra alone: middles of edges that are curved, by the points at their ends, the smaller first.
+  /// For meshes of tetrahedra: middles of curved edges, by the points at their ends, the smaller first.
   std::map<std::array<int, 2>, Point3> middles;
 
-  bool takes_one_size = false; ///< swept, or made by a script: no field of sizes refines it
+  bool takes_one_size = false; ///< swept, or made by a script: a size field does not refine it
 
-  std::vector<std::string> notes;      ///< what a user should look at in the geometry and the mesh
-  std::vector<std::string> statements; ///< what is as it should be
+  std::vector<std::string> notes;      ///< warnings about geometry and mesh
+  std::vector<std::string> statements; ///< checks that passed
 
   /// Named surfaces: triangles of the skin, as indices into `skin`.
   std::map<std::string, std::vector<int>> surfaces;

@@ -51,19 +51,19 @@ std::vector<std::string> parts_of(const std::string &path)
   return parts;
 }
 
-constexpr int another_word = 1 << 20; ///< more letters than any two words differ by
+constexpr int another_word = 1 << 20; ///< more than any distance of two words
 
-/// Of a slip of the pen; none where the words differ by more than a third of their letters.
+/// Edit distance of a typing error; `another_word` if the words differ by more than a third of their letters.
 int slip(const std::string &name, const std::string &meant)
 {
-  constexpr std::size_t longest_word = 200; // else time and memory go by the product of lengths that a file chooses
+  constexpr std::size_t longest_word = 200; // bounds time and memory, which grow with the product of the lengths
   if (std::max(name.size(), meant.size()) > longest_word)
     return another_word;
   const int distance = edit_distance(lower(name), lower(meant));
   return 3 * distance <= static_cast<int>(std::max(name.size(), meant.size())) + 1 ? distance : another_word;
 }
 
-/// A name without dots may leave out the rest of a path: "guide" for "frame.guide"; a whole name is nearer than a part.
+/// The same for a path of which a name without dots may be one part: "guide" for "frame.guide". Whole names rank first.
 int slip_of_path(const std::string &name, const std::string &path)
 {
   int smallest = 2 * slip(name, path);

@@ -67,7 +67,7 @@ std::string count_text(std::size_t n, const std::string &one, const std::string 
 
 std::size_t n_letters(const std::string &text)
 {
-  // Bytes that continue a character begin with the bits 10.
+  // Continuation bytes of UTF-8 begin with the bits 10.
   return std::count_if(text.begin(), text.end(),
                        [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; });
 }

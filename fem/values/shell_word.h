@@ -5,10 +5,10 @@
 namespace gestell::fem
 {
 
-/// A text as one word of a shell: in single quotes.
+/// A string as one shell word, in single quotes.
 std::string shell_word(const std::string &text);
 
-/// The same for commands that are shown: in quotes only where the shell needs them.
+/// The same for commands in messages: quoted only if necessary.
 std::string typed_word(const std::string &text);
 
 } // namespace gestell::fem

@@ -7,7 +7,7 @@
 namespace gestell::fem
 {
 
-/// Eigen's sparse matrix, which in version 3.4 is copied where it should be moved: a GiB each time for a large frame.
+/// Eigen's sparse matrix with a move constructor: version 3.4 copies instead, a GiB each time for a large frame.
 class SparseMatrix : public Eigen::SparseMatrix<double>
 {
 public:

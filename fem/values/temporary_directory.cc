@@ -23,7 +23,7 @@ namespace
                            "; set TMPDIR to another folder");
 }
 
-/// The process tells its own apart, whichever library of it made them.  "": there is no folder for temporary files.
+/// Start of the names of this process, the same in all of its libraries; empty if there is no temporary folder.
 std::string begin_of_names(std::error_code &error)
 {
   const std::filesystem::path folder = std::filesystem::temp_directory_path(error);

@@ -6,7 +6,7 @@
 namespace gestell::fem
 {
 
-/// A new folder for temporary files, for this user alone, under a name that nobody can foresee; gone with its owner.
+/// A new folder for temporary files, accessible only to this user, with an unpredictable name; removed with its owner.
 class TemporaryDirectory
 {
 public:
@@ -21,7 +21,7 @@ private:
   std::filesystem::path path_;
 };
 
-/// Words for a shell that remove all that this process has: for one that ends without their destructors.
+/// Shell commands that remove all temporary folders of this process, if it ends without destructors.
 std::string words_of_removal();
 
 } // namespace gestell::fem

@@ -46,7 +46,7 @@ std::vector<int> all(const TriangleSurface &surface)
   return triangles;
 }
 
-/// The triangles that hang together with the first one, turned as it is.
+/// The triangles connected to the first one, oriented like it.
 std::vector<int> shell_of(TriangleSurface &surface, int first, const std::map<Edge, std::vector<int>> &around,
                           std::vector<bool> &visited)
 {

@@ -12,16 +12,15 @@ struct TriangleSurface
   std::vector<std::array<int, 3>>    triangles;
 };
 
-/// Volume [m^3] that a closed surface encloses; negative if its triangles are seen clockwise from outside.
+/// Volume [m^3] enclosed by a closed surface; negative if its triangles are clockwise as seen from outside.
 double enclosed_volume(const TriangleSurface &surface);
 
-/// Number of edges that do not belong to exactly two triangles running through them in opposite directions; 0 of a
-/// closed surface.
+/// Number of edges that do not belong to exactly two triangles with opposite directions; 0 for a closed surface.
 int unmatched_edges(const TriangleSurface &surface);
 
 /**
- * Turns the triangles of one solid's surface so that all of them are seen counter-clockwise from outside: neighbours
- * alike, then the largest shell outwards and all others, which are cavities, inwards.
+ * Orients the triangles of one solid's surface counter-clockwise as seen from outside: adjacent triangles consistently,
+ * then the largest shell outwards and all others, which are cavities, inwards.
  *
  * @param surface  closed: every edge has two triangles.
  */

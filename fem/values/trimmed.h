@@ -5,7 +5,7 @@
 namespace gestell
 {
 
-/// Text without the blanks, tabulators and line ends around it.
+/// A string without surrounding blanks, tabulators and line ends.
 inline std::string trimmed(const std::string &text)
 {
   const char *const blank = " \t\r\n";

@@ -122,7 +122,7 @@ void BlankingForce::transition(int i, const LocalMotion &motion, double *history
 {
   constexpr Branch after[]  = {fracture, slug_friction, through}; // rise, fracture, slug friction
   const double     z        = motion.u[0] - parameters_.contact_at;
-  const Branch     furthest = history[0] > 0. ? virgin_branch(history[0]) : rise; // where new material begins
+  const Branch     furthest = history[0] > 0. ? virgin_branch(history[0]) : rise; // branch of new material
   switch (branch_of(history))
   {
   case rise:

@@ -18,12 +18,12 @@ namespace gestell::mechanism
  *     z_d <= z < h    F_v = rho F_max [1 - (3 xi^2 - 2 xi^3)],        xi = (z - z_d)/(h - z_d)            slug friction
  *     else            F_v = 0
  *
- * and with the largest penetration z_max <= h so far, h of a sheet that is severed,
+ * and with the largest penetration z_max <= h so far (h if the sheet is severed),
  *
- *     F = F_v(z) if z >= z_max, else max(0, F_v(z_max) - c_el (z_max - z));      0 for good once z reached h.
+ *     F = F_v(z) if z >= z_max, else max(0, F_v(z_max) - c_el (z_max - z));      0 permanently once z has reached h.
  *
- * Stored is F^2/(2 c_el), what unloading gives back; the rest is dissipated.  Source: reference model of the crank
- * press, section 3; docs/theory/elements.md.
+ * The stored energy F^2/(2 c_el) is released by unloading; the rest is dissipated.  Source: reference model of the
+ * crank press, section 3; docs/theory/elements.md.
  */
 class BlankingForce : public DifferentiableElement<BlankingForce, 1, Branches, Structure>
 {
@@ -55,7 +55,7 @@ public:
       p[0] = -virgin(branch, z);
   }
 
-  /// c_el, that of unloading and reloading.
+  /// c_el, the stiffness of unloading and reloading.
   void stiffest(const double *u, double *K, double *D) const override;
 
   /// history: z_max [m], active branch.
@@ -128,8 +128,8 @@ private:
     return Number(0.);
   }
 
-  /// x^n; for x < 0, beyond the maximum, only a whole n goes on; else all derivatives that exist at x = 0 are zero
-  /// there and so is the continuation.
+  /// x^n; for x < 0, beyond the maximum, it is continued only for integer n; otherwise all derivatives that exist at x
+  /// = 0 are zero there, and the continuation is zero.
   template <typename Number>
   Number power(const Number &x) const
   {

@@ -74,7 +74,7 @@ double Clearance::penetration(const LocalMotion &motion) const
   return branch == open ? 0. : side(branch) * motion.u[0] - parameters_.gap;
 }
 
-/// Of a stop below, s = -u.
+/// For a stop below, s = -u.
 Play Clearance::play(const double *u, const double *v, double *G) const
 {
   const double direction = parameters_.stops == Stops::below ? -1. : 1.;

@@ -8,9 +8,9 @@ namespace gestell::mechanism
 {
 
 /**
- * Play between two stops along one direction, or a single stop, with an elastic, dissipative contact without tension.
- * Measure u [m or rad]: displacement from the centre of the play, or from the reference of a single stop; s = sign(u)
- * of a play, s = 1 of a stop above, s = -1 of one below; d = s u - gap:
+ * Clearance between two stops along one direction, or a single stop, with an elastic, dissipative contact without
+ * tension. Measure u [m or rad]: displacement from the centre of the clearance, or from the reference of a single stop;
+ * s = sign(u) for a clearance, s = 1 for a stop above, s = -1 for a stop below; d = s u - gap:
  *
  *     d > 0 and 1 + chi s u' > 0:   p = -s c d^n (1 + chi s u'),        otherwise p = 0.
  *
@@ -33,16 +33,16 @@ public:
 
   struct Parameters
   {
-    double gap         = 0.; ///< [m], half of the total play, >= 0; of a single stop any
+    double gap         = 0.; ///< [m], half of the total clearance, >= 0; any value for a single stop
     double stiffness   = 0.; ///< c [N/m^n], > 0
     double dissipation = 0.; ///< chi [s/m], >= 0
     Stops  stops       = Stops::both;
     double exponent    = 1.; ///< n, >= 1
   };
 
-  /// chi [s/m] with which two bodies that meet at the speed v [m/s], and that nothing but the contact moves meanwhile,
-  /// part at e v:  (1 + e) chi v = ln[(1 + chi v) / (1 - chi e v)], whatever masses, stiffness and exponent are
-  /// (docs/theory/elements.md, 11).  Needs 0 < e <= 1 and v > 0, else throws std::invalid_argument.
+  /// chi [s/m] for which two bodies that collide at the speed v [m/s], moved only by the contact, separate at e v: (1 +
+  /// e) chi v = ln[(1 + chi v) / (1 - chi e v)], for any masses, stiffness and exponent (docs/theory/elements.md, 11).
+  /// Requires 0 < e <= 1 and v > 0, else throws std::invalid_argument.
   static double dissipation_for(double restitution, double speed);
 
   explicit Clearance(const Parameters &parameters);
@@ -55,7 +55,7 @@ public:
     p[0]                 = s == 0. ? Number(0.) : Number(-s * pressed);
   }
 
-  /// c d^n (1 + chi s u') >= 0 and the s of the stop it comes from, 0 where none presses.
+  /// c d^n (1 + chi s u') >= 0 and the s of its stop; 0 without contact.
   template <typename Number>
   Number pressure(const Measures<Number> &m, const double *history, double &s) const
   {
@@ -101,10 +101,10 @@ private:
   };
 
   static Branch branch_of(const double *history) { return static_cast<Branch>(static_cast<int>(history[0])); }
-  static double side(Branch branch) { return branch < 0 ? -1. : 1.; } ///< s; of no meaning when open
+  static double side(Branch branch) { return branch < 0 ? -1. : 1.; } ///< s; without meaning if open
   static bool   in_slack(Branch branch) { return branch == slack_negative || branch == slack_positive; }
 
-  /// The one that is asked for.
+  /// The requested branch.
   template <class Motion>
   Branch branch_for(const Motion &m, const double *history) const
   {
@@ -121,7 +121,7 @@ private:
     return s < 0. ? (pressed ? contact_negative : slack_negative) : (pressed ? contact_positive : slack_positive);
   }
 
-  /// d^n; below d = 0, where only a trial motion gets, the line goes on for n = 1 and zero for all else.
+  /// d^n; below d = 0, which only trial motions reach, it is linear for n = 1 and zero otherwise.
   template <typename Number>
   Number power(const Number &d) const
   {

@@ -90,7 +90,7 @@ double ConnectingRod::stored_power(const LocalMotion &motion, const double *hist
   return parameters_.stiffness * deflection(motion, history) * rate(motion);
 }
 
-/// Of the closed chain, compression positive.
+/// Deflection of the closed chain, compression positive.
 double ConnectingRod::deflection(const LocalMotion &motion, const double *history) const
 {
   double       gradient[3];

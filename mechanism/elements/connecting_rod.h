@@ -8,10 +8,10 @@ namespace gestell::mechanism
 {
 
 /**
- * Elastic connecting rod with play between a crank pin and a slide, along the slide's axis e.
+ * Elastic connecting rod with clearance between a crank pin and a slide, along the slide's axis e.
  *
- * Measures (phi, s, y): crank angle from top dead centre [rad]; s = e . (x_crank - x_slide) [m]; y, the same
- * difference across e in the crank's plane [m].  The position function of the slide is
+ * Measures (phi, s, y): crank angle from top dead centre [rad]; s = e. (x_crank - x_slide) [m]; y, the same difference
+ * normal to e in the crank's plane [m].  The position function of the slide is
  *
  *     u(phi, y) = -r cos phi + w - (l - r),     w = sqrt(l^2 - c^2),   c = r sin phi + y,       u(0, 0) = 0,
  *
@@ -22,8 +22,8 @@ namespace gestell::mechanism
  *     -s_cl <= delta <= 0     F = b_O delta'
  *     delta < -s_cl           F = b_O delta' - c e + b [1 - exp(-e/p0)] delta',     e = -(delta + s_cl)
  *
- * Generalised forces by virtual work: p = -F grad delta; the part on y is F tan(psi), the sideways push of the rod on
- * crank and slide.  The force along the rod is F / cos(psi), sin(psi) = c/l.
+ * Generalised forces by virtual work: p = -F grad delta; the component on y is F tan(psi), the lateral force of the rod
+ * on crank and slide.  The force along the rod is F / cos(psi), sin(psi) = c/l.
  *
  * Source: reference model of the crank press, sections 2 and 3; docs/theory/elements.md.
  */
@@ -36,9 +36,9 @@ public:
     double length         = 0.;   ///< l [m], > r
     double stiffness      = 0.;   ///< c [N/m], > 0, of the closed chain
     double damping        = 0.;   ///< b [N s/m], >= 0, of the closed chain
-    double closing_length = 1e-4; ///< p0 [m], > 0, over which b fades in
-    double clearance      = 0.;   ///< s_cl [m], >= 0, total play
-    double oil_damping    = 0.;   ///< b_O [N s/m], >= 0, acts always
+    double closing_length = 1e-4; ///< p0 [m], > 0, over which b increases to its value
+    double clearance      = 0.;   ///< s_cl [m], >= 0, total clearance
+    double oil_damping    = 0.;   ///< b_O [N s/m], >= 0, acts in all branches
   };
 
   explicit ConnectingRod(const Parameters &parameters);
@@ -85,7 +85,7 @@ private:
   };
 
   static Branch branch_of(const double *history) { return static_cast<Branch>(static_cast<int>(history[0])); }
-  /// The one that is asked for.
+  /// The requested branch.
   Branch branch_for(bool by_history, const double *history, double delta) const
   {
     return by_history ? branch_of(history) : branch_at(delta);
@@ -110,7 +110,7 @@ private:
     return b_O * rate;
   }
 
-  /// 1 - exp(-x); far below the switching point x = 0, where only a trial motion gets, its tangent at x = -1: finite.
+  /// 1 - exp(-x); far below the switching point x = 0, which only trial motions reach, its tangent at x = -1: finite.
   template <typename Number>
   static Number fade_in(const Number &x)
   {

@@ -20,8 +20,8 @@ namespace gestell::mechanism
  *     slip backward     u' < v_b      p = +e R(v) + d v
  *     stick             u' = v_b      p is the sticking force, |p| <= e R0
  *
- * R(v) is the kinetic force R, or falls to it from R0 along a Stribeck curve; d is viscous.  For e = 0 it is released:
- * no friction, only d acts.
+ * R(v) is the kinetic force R, or decreases to it from R0 along a Stribeck curve; d is viscous.  For e = 0 it is
+ * released: only d acts.
  *
  * Sticking ends when the sticking force reaches e R0: p < 0 slips forward, p > 0 backward. It
  * begins when u' - v_b becomes zero, for any load; if the load is too large, a guard of the new branch is past zero
@@ -31,8 +31,8 @@ namespace gestell::mechanism
  * In an ideal joint R and R0 are given per unit of its normal force N, which
  * multiplies them like e: limit and friction follow the multipliers.
  *
- * The element needs an integrator that locates events.  force() of a motion by itself (by_history = false) has the sign
- * of u' - v_b, zero at u' = v_b; by history it is zero in stick, where holds() is true and it is not used.
+ * The element needs an integrator that locates events.  Without history (by_history = false) force() has the sign of
+ * the sliding speed u' - v_b and is zero at rest; with history it is zero and unused while sticking (holds()).
  *
  * Against ground (v_b = 0) its work is dissipated; a belt is a drive: its work, minus the loss by sliding, counts as
  * input.  For natural frequencies it has no stiffness.
@@ -115,9 +115,9 @@ private:
   {
     return parameters_.load ? parameters_.load->normal_force(lambda) : 1.;
   }
-  void find_branch(const LocalMotion &motion, double *history) const;       ///< of a motion that begins here
-  void follow_engagement(const LocalMotion &motion, double *history) const; ///< released, or not any more
-  int  n_own_guards(const double *history) const;                           ///< all but that of the engagement
+  void find_branch(const LocalMotion &motion, double *history) const;       ///< for a motion that starts here
+  void follow_engagement(const LocalMotion &motion, double *history) const; ///< releases, or engages again
+  int  n_own_guards(const double *history) const;                           ///< all except that of the engagement
 
   Parameters parameters_;
   Stribeck   sliding_;

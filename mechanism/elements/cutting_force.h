@@ -15,7 +15,7 @@ namespace gestell::mechanism
  *
  *     p = -F (z/z_p) exp(1 - z/z_p) [1 + tanh(u'/v0)]/2,        otherwise p = 0.
  *
- * The largest force F is reached at z = z_p.  Its work counts as dissipated.
+ * The largest force F is reached at z = z_p.  Its work is dissipated.
  */
 class CuttingForce : public DifferentiableElement<CuttingForce, 1, OneSidedContact, Structure>
 {
@@ -56,7 +56,7 @@ private:
   std::string event(bool closing) const final { return closing ? "tool_contact" : "tool_release"; }
   bool        closes(double u, double) const final { return u > parameters_.contact_at; }
 
-  /// x exp(1 - x); far below the switching point x = 0, where only a trial motion gets, its tangent at x = -1: finite.
+  /// x exp(1 - x); far below the switching point x = 0, which only trial motions reach, its tangent at x = -1: finite.
   template <typename Number>
   static Number shape(const Number &x)
   {

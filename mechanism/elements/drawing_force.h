@@ -8,17 +8,17 @@ namespace gestell::mechanism
 {
 
 /**
- * Force of deep drawing or other forming: it rises elastically, is constant while the sheet flows, and returns only
- * beyond the largest path so far.
+ * Force of deep drawing or other forming: it rises elastically, is constant while the sheet flows, and after unloading
+ * acts again only near the largest path so far.
  *
- * Measure u [m]: displacement of the punch in feed direction; path z = u - x_T, z_p the part of it that stays:
+ * Measure u [m]: displacement of the punch in feed direction; path z = u - x_T, with the plastic part z_p:
  *
  *     apart      z < z_p                  p = 0
  *     elastic    0 < c (z - z_p) < F      p = -c (z - z_p)
- *     flow       going on from there      p = -F,     z_p = z - F/c
+ *     flow       continued from there     p = -F,     z_p = z - F/c
  *
- * and p = 0 for good once z has reached the depth in flow, where the part is drawn through.  F/c is the path of the
- * rise.  Stored is the elastic part, the rest is dissipated.
+ * and p = 0 permanently once z has reached the depth while flowing, when the part is drawn through.  F/c is the elastic
+ * path. The elastic energy is stored, the rest is dissipated.
  *
  * Source: elastic, perfectly plastic contact that never pulls; Dresig, Vul'fson, Dynamik der Mechanismen, 5.5.1.
  */
@@ -43,7 +43,7 @@ public:
     p[0]                = branch == elastic ? Number(-d) : branch == flow ? Number(-parameters_.force) : Number(0.);
   }
 
-  /// c, that of loading and unloading.
+  /// c, the stiffness of loading and unloading.
   void stiffest(const double *u, double *K, double *D) const override;
 
   /// history: z_p [m], active branch.
@@ -69,7 +69,7 @@ private:
   };
 
   static Branch branch_of(const double *history) { return static_cast<Branch>(static_cast<int>(history[1])); }
-  /// The one that is asked for.
+  /// The requested branch.
   Branch branch_for(bool by_history, const double *history, double elastic_force) const
   {
     return by_history ? branch_of(history) : branch_at(elastic_force, history);

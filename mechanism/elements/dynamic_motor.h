@@ -6,14 +6,15 @@ namespace gestell::mechanism
 {
 
 /**
- * Asynchronous motor with its dynamic characteristic: the torque follows the stationary one of Kloss with a lag.
+ * Asynchronous motor with its dynamic characteristic: the torque follows the stationary Kloss characteristic with a
+ * first-order lag.
  *
  * Measures: phi [rad], angle of the driven shaft; M [N m], torque on this shaft, a lag of the electrical time constant
  * T_e, which belongs to whoever places it:
  *
  *     T_e M' + M = M_stat(phi'),     p_phi = M,     p_M = M_stat,     M_stat by KlossMotor
  *
- * M has no mass: the virtual coordinate of section 5.5.3 of Dresig and Vul'fson.  For the linear part of Kloss' formula
+ * M is massless: the virtual coordinate of section 5.5.3 of Dresig and Vul'fson.  For the linear part of Kloss' formula
  * T_e = 1/(2 pi f s_K) with the frequency f of the mains.
  *
  * Source: Dresig, Vul'fson, Dynamik der Mechanismen, 5.5.3.

@@ -61,7 +61,7 @@ void FollowerLoad::tangent(const LocalMotion &motion, const double *history, con
 namespace
 {
 
-/// e . d^2x/du_i du_j at a direction e that is held, added to the matrix.
+/// Adds e . d^2x/du_i du_j for a constant direction e to the matrix.
 void add_bending(const Placement &point, const Vector3d &e, const double *u, double *matrix)
 {
   const auto bias = [&](const double *v)

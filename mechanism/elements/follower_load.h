@@ -13,9 +13,9 @@ namespace gestell::mechanism
  *
  *     p = P e . dx/du,     power P e . x'.
  *
- * P is that of a law of one measure, which sees the speed e . x' as its rate; history, events and commands are those of
- * the law. Such a load has no potential and no reaction. Its tangent keeps e . dx/du constant within a Newton step;
- * geometric() is the rest,
+ * P is that of a law of one measure, whose rate is the speed e. x'; history, events and commands are those of the law.
+ * Such a load has no potential and no reaction.  Its tangent keeps e. dx/du constant within a Newton step; geometric()
+ * is the remainder,
  *
  *     K_ij = -P T_ij - dP/ds' G_i sum_l T_lj u_l',     G_i = e . dx/du_i,
  *     T_ij = dG_i/du_j = de/du_j . dx/du_i + e . d^2x/du_i du_j,
@@ -28,7 +28,7 @@ class FollowerLoad : public ForceLaw, public Branches, public Structure, public 
 {
 public:
   /// @param e  unit vector, in the reference configuration
-  /// @throws std::invalid_argument if the law has not one measure, or the point does not move
+  /// @throws std::invalid_argument if the law does not have exactly one measure, or the point does not move
   FollowerLoad(const Placement &point, const Vector3d &e, std::shared_ptr<const ForceLaw> law);
 
   int  n_measures() const override { return point_.n_measures(); }

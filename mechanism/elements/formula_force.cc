@@ -30,7 +30,7 @@ void FormulaForce::engaged(const double *u, double *K, double *D) const
   derivatives_at(*u, nullptr, *K, *D);
 }
 
-/// Each kink in turn on the side where K, or D, is larger, or smaller.
+/// Chooses the side of each kink, one after the other, for which K or D is largest or smallest.
 void FormulaForce::extreme(bool largest, double u, double &K, double &D) const
 {
   const double zero = 0., sign = largest ? 1. : -1.;

@@ -11,8 +11,8 @@ namespace gestell::mechanism
  *
  * Its kinks are guards (FormulaKinks).
  *
- * Its work counts as input, negative where the force brakes, since the stored part is unknown.  As structure
- * it has K = -dF/du and D = -dF/du' at the given u, at t = 0 and at rest.
+ * Its work is input, negative if the force brakes, because the stored part is unknown.  As structure it has K = -dF/du
+ * and D = -dF/du' at the given u, at t = 0 and at rest.
  */
 class FormulaForce : public DifferentiableElement<FormulaForce, 1, Branches, Structure>
 {
@@ -36,7 +36,7 @@ public:
     Along   along = Along::line; ///< names and units of the quantities
   };
 
-  /// @throws std::invalid_argument if the formula depends on a variable there is not.
+  /// @throws std::invalid_argument if the formula depends on another variable.
   explicit FormulaForce(const Parameters &parameters);
 
   template <typename Number>
@@ -51,14 +51,14 @@ public:
   const Branches *branches() const override { return n_kinks() > 0 ? this : nullptr; } ///< one for each set of sides
 
   void engaged(const double *u, double *K, double *D) const override;
-  /// Each kink in turn on the side where K, or D, is larger: right for a sum of terms with a kink each.
+  /// With each kink in turn on the side where K, or D, is larger: exact for a sum of terms with one kink each.
   void stiffest(const double *u, double *K, double *D) const override;
-  /// The same where they are least: of c max(0, u) + d u' the damper.
+  /// The same with the smallest K and D: for c max(0, u) + d u' the damper.
   void open_branch(const double *u, double *K, double *D) const override;
-  bool stiffens() const override { return true; } ///< maybe; a formula may be anything
+  bool stiffens() const override { return true; } ///< possibly; a formula is arbitrary
 
-  /// history: side of each kink, -1 or 1; then 0, or nan once an accepted motion has left the range of a root: roots are
-  /// continued below zero only beyond a kink.
+  /// history: side of each kink, -1 or 1; then 0, or nan after an accepted motion has left the domain of a root: roots
+  /// are continued below zero only beyond a kink.
   int                   n_history() const override { return n_kinks() + 1; }
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  accept(const LocalMotion &motion, double *history) const override;

@@ -28,8 +28,8 @@ namespace gestell::mechanism
  *     E = (P V - P_s V_s)/(n - 1) - P_s V_s + P_a V,     dE/dV = P_a - P  while enclosed or in suction,
  *
  * so that compression and expansion dissipate nothing, and delivery n/(n-1) (P_d - P_s V_s/V) per volume delivered:
- * over a cycle the work of the compressor.  For n = 1 the first term is P V ln(P/P_s).  Below V_c/2, where only a trial
- * motion gets, P goes on along its tangent.
+ * over a cycle the work of the compressor.  For n = 1 the first term is P V ln(P/P_s).  Below V_c/2, which only trial
+ * motions reach, P continues along its tangent.
  *
  * Source: Dresig, Vul'fson, Dynamik der Mechanismen, 5.5.1 (compressor forces); any textbook of reciprocating
  * compressors.
@@ -67,7 +67,7 @@ public:
     p[0]                = side() * parameters_.area * (P - parameters_.back_pressure);
   }
 
-  /// V_c/2 [m^3]: below it the law goes on along its tangent, and no piston gets.
+  /// V_c/2 [m^3]: below it, where no piston gets, the law continues along its tangent.
   double least_volume() const { return 0.5 * parameters_.clearance_volume; }
 
   void stiffest(const double *u, double *K, double *D) const override;

@@ -11,24 +11,24 @@ namespace gestell::mechanism
 /**
  * Hydraulic cylinder with the elasticity of its oil columns.
  *
- * Measures: u [m], whose x = u - u_0 is the stroke, growing as chamber A is filled; a, b [m], virtual coordinates: the
+ * Measures: u [m], with the stroke x = u - u_0, which grows as chamber A is filled; a, b [m], virtual coordinates: the
  * piston displacements by the oil fed into A and B for incompressible oil.  With the columns L_a = V_a/A and L_b =
  * V_b/B at x = 0 and the bulk modulus K
  *
  *     p_a = p_a0 + K ln[(L_a + a)/(L_a + x)],     p_b = p_b0 + K ln[(L_b + b)/(L_b - x)],     F = A p_a - B p_b
  *     a' = (Q_a/A) exp[(p_a - p_a0)/K],           b' = (Q_b/B) exp[(p_b - p_b0)/K]
  *
- * which is  V p'/K = Q - A x'  in each chamber, exactly, with V = A (L_a + x).  Not pressures but fed lengths are the
- * states: the force then is a function of state with the stiffness  K (A^2/V_a + B^2/V_b)  of closed columns, and all
- * unknowns are lengths.  They have the time constant T = 1 s in  T a' + a = p,  with p = a + T a'.
+ * which is  V p'/K = Q - A x'  in each chamber, exactly, with V = A (L_a + x).  The states are fed lengths instead of
+ * pressures: the force is then a function of state with the stiffness  K (A^2/V_a + B^2/V_b)  of closed columns, and
+ * all unknowns are lengths.  They have the time constant T = 1 s in  T a' + a = p,  with p = a + T a'.
  *
  * Flow:  Q_a = Q(t), Q_b = -Q B/A  commanded by a profile; or through a valve of the opening y(t) in [-1, 1],
  *
  *     y > 0:  Q_a = Q_N y r(p_S - p_a),   Q_b = -Q_N y r(p_b - p_T)
  *     y < 0:  Q_a = Q_N y r(p_a - p_T),   Q_b = -Q_N y r(p_S - p_b),     r(d) = d/d_N / ((d/d_N)^2 + e^2)^(1/4),
  *
- * sqrt(d/d_N) but for small d.  Leakage past the piston: k_L (p_a - p_b) from A to B.  The work on the machine, F x',
- * is input. Cavitation is not modelled: a pressure may become negative, which the signals show.
+ * sqrt(d/d_N) except for small d.  Leakage past the piston: k_L (p_a - p_b) from A to B.  The work on the machine, F
+ * x', is input. Cavitation is not modelled: a pressure may become negative, which is visible in the signals.
  *
  * Source: H. Murrenhoff, Fundamentals of Fluid Power, Part 1: Hydraulics; docs/theory/position_functions.md (5).
  */
@@ -102,7 +102,7 @@ public:
   double lower_end() const { return -parameters_.volume_a / parameters_.area_a; }
   double upper_end() const { return parameters_.volume_b / parameters_.area_b; }
 
-  /// Of closed columns.
+  /// With closed columns.
   void engaged(const double *u, double *K, double *D) const override;
   Work work() const override { return Work::input; }
 

@@ -7,17 +7,17 @@ namespace gestell::mechanism
 {
 
 /**
- * Journal in a bearing with radial play: a revolute joint with clearance.
+ * Journal in a bearing with radial clearance: a revolute joint with clearance.
  *
- * Measures: eccentricity y = (y1, y2) [m] of the journal across the axis, seen from the bearing, and its rotation phi
- * [rad] against the bearing about the axis e1 x e2.  With r = |y|, n = y/r, t = (-n2, n1) and the radius R of the
- * journal
+ * Measures: eccentricity y = (y1, y2) [m] of the journal normal to the axis, relative to the bearing, and its rotation
+ * phi [rad] relative to the bearing about the axis e1 x e2.  With r = |y|, n = y/r, t = (-n2, n1) and the radius R of
+ * the journal
  *
  *     p_y = -N n + T t,     p_phi = R T,     N = c d^n (1 + chi r'),     d = r - gap > 0,     N > 0,
  *     v_s = t . y' + R phi',                 T = -mu(|v_s|) N tanh(v_s/v0),
  *
- * the normal law that of Clearance, with its branches and guards, friction that of SlidingFriction.  v_s is the sliding
- * speed of the two surfaces where they touch.
+ * with the normal law of Clearance, its branches and guards, and the friction of SlidingFriction.  v_s is the sliding
+ * speed of the two surfaces at the contact.
  *
  * Source: P. Flores, J. Ambrosio, J. C. P. Claro, H. M. Lankarani, Kinematics and Dynamics of Multibody Systems with
  * Imperfect Joints, Springer 2008, chapter 3; docs/theory/contact.md (1).
@@ -43,7 +43,7 @@ public:
     using std::sqrt;
     p[0] = p[1] = p[2] = Number(0.);
     const Number r2    = m.u[0] * m.u[0] + m.u[1] * m.u[1];
-    if (!(value(r2) > 0.)) // centred: far inside the play
+    if (!(value(r2) > 0.)) // centred: far from contact
       return;
     const Number r = sqrt(r2), n1 = m.u[0] / r, n2 = m.u[1] / r;
     const Number rate = n1 * m.v[0] + n2 * m.v[1];
@@ -82,7 +82,7 @@ public:
   const Parameters &parameters() const { return parameters_; }
 
 private:
-  /// r, r' and the direction of the eccentricity; along e1 where there is none.
+  /// r, r' and the direction of the eccentricity; along e1 if the eccentricity is zero.
   struct Polar
   {
     explicit Polar(const LocalMotion &motion);

@@ -18,12 +18,12 @@ namespace gestell::mechanism
  *     p_u = -(F + sigma_1 z' + d v)
  *     F'  = sigma_0 z'      written as      T F' + F = p_F,     p_F = F + T sigma_0 z'
  *
- * T is only the scale of the virtual coordinate and does not change the motion.  In the steady slide F = R(v) sign(v);
- * a small motion sees the spring sigma_0 and the damper sigma_1 + d.  Stored is F^2/(2 sigma_0).  Where v changes its
- * sign |v| has a kink: event "reversal".
+ * T is only the scale of the virtual coordinate and does not change the motion.  In steady sliding F = R(v) sign(v);
+ * for small motions it is a spring sigma_0 and a damper sigma_1 + d.  The stored energy is F^2/(2 sigma_0).  Where v
+ * changes its sign |v| has a kink: event "reversal".
  *
  * In an ideal joint all forces are per unit of its normal force N, which multiplies p_u; z is independent of it. The
- * energy stored in the bristles is then counted as dissipated.
+ * energy stored in the bristles is then treated as dissipated.
  *
  * Source: C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419-425.
  */
@@ -59,7 +59,7 @@ public:
     p[1]                  = m.u[1] + lag() * parameters_.bristle_stiffness * z_rate;
   }
 
-  /// sigma_0, sigma_1 + d: for small motion the joint is a spring.  Zero where N is unknown.
+  /// sigma_0, sigma_1 + d: for small motions the joint is a spring.  Zero if N is unknown.
   void stiffest(const double *u, double *K, double *D) const override;
 
   /// history: the sign of v.

@@ -5,7 +5,7 @@
 namespace gestell::mechanism
 {
 
-// The normal contact takes the first measure and leaves the others alone.
+// The normal contact acts on the first measure only.
 
 PointContact::PointContact(const Parameters &parameters) : normal_(parameters.normal), friction_(parameters.friction)
 {

@@ -7,9 +7,9 @@ namespace gestell::mechanism
 {
 
 /**
- * A point of one body against a plane carried by another, or between two parallel planes.
+ * Contact of a point of one body with a plane of another, or with two parallel planes.
  *
- * Measures, seen from the plane [m]: height s of the point along the normal, and its displacement (x, y) along the
+ * Measures relative to the plane [m]: height s of the point along the normal, and its displacement (x, y) along the
  * plane.
  *
  *     p_s = normal force of a Clearance in s (Stops::below: the plane pushes up where s < -gap; both: two planes),

@@ -12,7 +12,7 @@ namespace gestell::mechanism
 /**
  * Force or torque with a given time history: p = F(t)        [N or N m]
  *
- * +F acts on the measure u [m or rad].  Corners of the profile are events. Its work counts as input. Or F is an
+ * +F acts on the measure u [m or rad].  Corners of the profile are events.  Its work is input.  Alternatively F is an
  * external input, without commands.
  */
 class ProfileForce : public DifferentiableElement<ProfileForce, 1, Branches, Commands>

@@ -12,8 +12,8 @@ namespace gestell::mechanism
  *
  *     d > 0 and c d + b u' > 0:   p = -(c d + b u'),        otherwise p = 0.
  *
- * A rope that contracts fast becomes slack before d = 0. With b > 0 the force begins with a jump.
- * Events "taut" and "slack".  Stored is c d^2/2 while d > 0, the rest is dissipated.
+ * A rope that contracts fast becomes slack before d = 0. With b > 0 the force begins with a jump. Events "taut" and
+ * "slack".  The energy c d^2/2 is stored while d > 0, the rest is dissipated.
  */
 class Rope : public DifferentiableElement<Rope, 1, OneSidedContact, Structure>
 {

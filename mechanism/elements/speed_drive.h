@@ -22,8 +22,7 @@ namespace gestell::mechanism
  * actual torque, without windup (automatic reset, the same as back-calculation with the tracking time T_i). Without an
  * integral (k_i = 0) z stays zero.
  *
- * Events: corners of the profile, "limit_reached", "limit_left".  Its work counts as input, negative where it
- * brakes.
+ * Events: corners of the profile, "limit_reached", "limit_left".  Its work is input, negative if it brakes.
  *
  * Source: K. J. Astrom, T. Hagglund, PID Controllers, 2nd ed. 1995 (automatic reset, windup).
  */
@@ -56,7 +55,7 @@ public:
     p[1]                = parameters_.integral_gain > 0. ? p[0] : Number(0.);
   }
 
-  /// history: -1, 1 at a limit, 0 within; that of the course.
+  /// history: -1, 1 at a limit, 0 between; that of the profile.
   int                n_history() const override { return 1 + parameters_.speed.n_history(); }
   void               start(const LocalMotion &motion, double *history) const override;
   void               resume(const LocalMotion &motion, double *history) const override;
@@ -79,7 +78,7 @@ private:
     return M > parameters_.largest_torque ? 1 : M < -parameters_.largest_torque ? -1 : 0;
   }
 
-  /// M without its limits.
+  /// M without limits.
   template <typename Number>
   Number wanted(const Measures<Number> &m, const double *history) const
   {

@@ -20,7 +20,7 @@ public:
     double rest      = 0.; ///< u_0 [m or rad]
   };
 
-  /// @throws std::invalid_argument for a stiffness or damping below zero
+  /// @throws std::invalid_argument for a negative stiffness or damping
   explicit SpringDamper(const Parameters &parameters);
 
   template <typename Number>

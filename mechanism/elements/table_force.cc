@@ -43,7 +43,7 @@ TableForce::TableForce(const Parameters &parameters) : against_(parameters.again
   {
     const bool last = i + 1 == rows.size();
     if (!last && rows[i + 1].x == rows[i].x)
-      continue; // the segment begins behind the jump
+      continue; // the segment begins after the jump
     const double   slope = last ? 0. : (rows[i + 1].force - rows[i].force) / (rows[i + 1].x - rows[i].x);
     const bool     jump  = i > 0 && rows[i - 1].x == rows[i].x && rows[i - 1].force != rows[i].force;
     const Segment &s     = segments_.back();

@@ -8,16 +8,16 @@ namespace gestell::mechanism
 /**
  * Force given by a table over time, displacement or rate; linear between its rows, constant beyond its ends.
  *
- * Measure u [m or rad]; x = t, u or u'.  Between the rows (x_i, F_i) and (x_j, F_j) that follow each other
+ * Measure u [m or rad]; x = t, u or u'.  Between successive rows (x_i, F_i) and (x_j, F_j)
  *
  *     p = F_i + (F_j - F_i) (x - x_i) / (x_j - x_i)        [N or N m]
  *
- * so +F acts on u.  Two rows with the same x are a jump.  Where the force has a corner or a jump the next segment
- * begins: events "next_segment" and, where x may go back, "previous_segment".
+ * so +F acts on u.  Two rows with the same x are a jump.  At a corner or a jump of the force the next segment begins:
+ * events "next_segment" and, if x can decrease, "previous_segment".
  *
- * Over the displacement it is conservative, with the energy E(u) = -integral of F from the first row on.  Over time or
- * rate its work counts as input, negative where it brakes.  A falling jump over the rate, like that of dry friction,
- * keeps the rate there and chatters; use CoulombFriction for sticking.
+ * Over the displacement it is conservative, with the energy E(u) = -integral of F from the first row.  Over time or
+ * rate its work is input, negative if it brakes.  A falling jump over the rate, like that of dry friction, keeps the
+ * rate there and chatters; use CoulombFriction for sticking.
  */
 class TableForce : public DifferentiableElement<TableForce, 1, Branches, Structure>
 {
@@ -51,7 +51,7 @@ public:
     p[0]             = s.force + s.slope * (x - s.x);
   }
 
-  /// The steepest segment that resists.
+  /// The steepest restoring segment.
   void stiffest(const double *u, double *K, double *D) const override;
 
   /// history: active segment, 0 before the first corner.

@@ -8,7 +8,7 @@ namespace gestell::mechanism
 /**
  * Unbalance of a rotor: its centre of mass is off its axis, which couples rotation and the motion of the carrier.
  * Measures u = (phi, x_1, x_2): angle of the rotor [rad] and displacements of the point of its axis [m] along e_1, e_2
- * across the axis, e_1 x e_2 along it.  With
+ * normal to the axis, e_1 x e_2 along it.  With
  *
  *     n = (cos, sin)(phi + psi),     t = dn/dphi,     U = m e [kg m],
  *

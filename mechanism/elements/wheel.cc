@@ -36,7 +36,7 @@ double Wheel::stored_power(const LocalMotion &motion, const double *) const
   return parameters_.stiffness * deflection(motion) * motion.v[0];
 }
 
-/// Of the tyre, which unloads by and by where it lifted off.
+/// Deflection of the tyre; after liftoff it unloads gradually.
 double Wheel::deflection(const LocalMotion &motion) const
 {
   return parameters_.bilateral ? motion.u[0] : std::min(0., motion.u[0]);

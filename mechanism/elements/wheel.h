@@ -7,7 +7,7 @@ namespace gestell::mechanism
 {
 
 /**
- * Elastic wheel or foot on the ground that may lift off. Measure s: height of its hub above the unloaded position;
+ * Elastic wheel or foot on the ground that can lift off. Measure s: height of its hub above the unloaded position;
  * compression u = -s.
  *
  *     contact:  F = c u + d u'     until F falls to zero ("lift_off"): before the tyre is unloaded, as it has no

@@ -11,14 +11,14 @@ namespace gestell::mechanism
 {
 
 /**
- * A level over time that obeys orders: the wanted speed of a drive, the engagement of a brake, a force.
+ * A level over time that accepts commands: the setpoint speed of a drive, the engagement of a brake, a force.
  *
- * It follows a profile of ramps, or a formula or table of the time, from the begin of the run on; or it waits at a
- * level until the order "start", from which on the time of the profile counts.  The orders "set" and "brake" leave it
- * by one ramp (Profile) from the level of that instant, "hold" keeps that level.  A ramp begins with the rate zero,
- * whatever the rate was before.
+ * It follows a profile of ramps, or a formula or table of time, from the start of the run; or it waits at a level until
+ * the command "start", where the time of the profile begins.  The commands "set" and "brake" replace it by one ramp
+ * (Profile) from the present level, "hold" keeps the present level.  A ramp begins with the rate zero, independently of
+ * the rate before.
  *
- * Where it stands is history [n_history()] of the element that follows it; ends of its pieces are guards, as those of a
+ * Its state is history [n_history()] of the element that follows it; ends of its pieces are guards like those of
  * Branches: "next_segment", or the kinks of the formula.
  */
 class CommandedProfile
@@ -28,22 +28,22 @@ public:
   CommandedProfile(const Profile &profile) : profile_(profile) {}           // NOLINT: a profile is a course
   explicit CommandedProfile(const PositionFunction &of_time) : function_(of_time) {}
 
-  /// Waits at `level` for the order "start".
+  /// A profile that waits at `level` for the command "start".
   CommandedProfile waiting(double level) const;
   bool             waits() const { return waiting_.has_value(); }
 
   int  n_history() const { return n_slots + (function_ ? function_->n_history() : 0); }
   void start(double t, double *history) const;
-  /// Nobody has taken its corners for a while: it goes on in the piece in which t lies.
+  /// Sets the piece that contains t, after its corners were not processed for some time.
   void resume(double t, double *history) const;
 
   struct Value
   {
     double value, rate;
   };
-  /// @param by_history  the piece the history names, also beyond its ends; else the one t lies in
+  /// @param by_history  the piece of the history, also beyond its ends; else the one that contains t
   Value at(double t, bool by_history, const double *history) const;
-  /// Integral over the time, up to a constant that each order changes; of levels and profiles.
+  /// Integral over time, up to a constant that each command changes; for levels and profiles.
   double integral(double t, const double *history) const;
 
   int                n_guards(const double *history) const;
@@ -54,18 +54,18 @@ public:
   bool                            command(const SwitchCommand &order, double t, double *history) const;
   static std::vector<std::string> commands() { return {"start", "hold", "set", "brake"}; }
 
-  /// The piece the history names is zero all along.
+  /// Whether the piece of the history is zero throughout.
   bool                is_zero(const double *history) const;
   const Profile      &profile() const { return profile_; }
-  std::vector<double> levels() const; ///< of a profile: lowest and highest without orders are among them
+  std::vector<double> levels() const; ///< of a profile, including the lowest and highest without commands
 
 private:
   enum Slot
   {
     mode,
     piece,
-    origin, ///< [s] from which the time of the profile counts
-    from,   ///< of the ramp of an order, that began at `origin`
+    origin, ///< [s] start of the profile's time
+    from,   ///< initial level of the ramp of a command, which began at `origin`
     to,
     rate,
     rate_of_rate,
@@ -74,8 +74,8 @@ private:
   enum Mode
   {
     follows, ///< the profile
-    rests,   ///< until it is started
-    ramps    ///< by order
+    rests,   ///< before its start
+    ramps    ///< by a command
   };
   using Pieces = Profile::Piece[Profile::most_pieces];
 
@@ -83,10 +83,10 @@ private:
   static int  ramp_pieces(const double *history, Pieces &pieces);
   static int  ramp_piece_at(double t, const Pieces &pieces, int n);
   bool        has_corner(const double *history, double &t) const;
-  void        begin(double t, double *history) const; ///< the profile, from `origin` on
+  void        begin(double t, double *history) const; ///< starts the profile at `origin`
 
   Profile                         profile_;
-  std::optional<PositionFunction> function_; ///< of the time, instead of the profile
+  std::optional<PositionFunction> function_; ///< of time, instead of the profile
   std::optional<double>           waiting_;
 };
 

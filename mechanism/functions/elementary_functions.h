@@ -20,8 +20,8 @@ enum class Function
   atan
 };
 
-// Each function is written for plain numbers and for dual ones whose parts are any number already known; so duals of
-// duals, of any depth, are known as well.  Eigen's own functions lack atan and, nested, do not all compile.
+// Each function is written for plain numbers and for dual numbers whose parts may themselves be of any such type;
+// therefore duals of duals, of any depth, also work.  Eigen's own functions lack atan and, nested, do not all compile.
 
 inline double scaled(double x, double factor)
 {
@@ -126,8 +126,7 @@ bool is_constant_zero(const Eigen::AutoDiffScalar<Derivatives> &x)
   return zero;
 }
 
-/// f(x) of a dual number, f and f' being known at its value.  What x does not depend on f does not either, even where
-/// f' is infinite.
+/// f(x) of a dual number, from f and f' at its value.  If x is constant, so is f, even if f' is infinite.
 template <typename Derivatives>
 Eigen::AutoDiffScalar<Derivatives> by_chain_rule(const typename Derivatives::Scalar       &value,
                                                  const typename Derivatives::Scalar       &slope,
@@ -168,7 +167,7 @@ Eigen::AutoDiffScalar<Derivatives> real_power(const Eigen::AutoDiffScalar<Deriva
   return by_chain_rule(real_power(x.value(), c), scaled(real_power(x.value(), c - 1.), c), x);
 }
 
-/// atan2(y, x); its jump of 2 pi at y = 0, x < 0 does not count as a kink of a formula.
+/// atan2(y, x); its jump of 2 pi at y = 0, x < 0 is not a kink of a formula.
 template <typename Derivatives>
 Eigen::AutoDiffScalar<Derivatives> angle(const Eigen::AutoDiffScalar<Derivatives> &y,
                                          const Eigen::AutoDiffScalar<Derivatives> &x)

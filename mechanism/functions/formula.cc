@@ -46,7 +46,7 @@ Formula::Derivatives Formula::along(const double *x, const double *d, const doub
 
 // --- programs of programs
 
-/// The other one's program behind this one's, its kinks counted on.
+/// Appends the program of the other formula; its kinks follow those of this one.
 void Formula::append(const Formula &other)
 {
   const int first = n_kinks();
@@ -138,7 +138,7 @@ Formula power(const Formula &a, const Formula &b)
     return 1.;
   if (c == 1.)
     return a;
-  constexpr int largest_integer_power = 1000000; // whole numbers beyond make 0, 1 or infinity, as a root does
+  constexpr int largest_integer_power = 1000000; // larger powers give 0, 1 or infinity, as a root does
   if (c == std::round(c) && std::abs(c) <= largest_integer_power && !a.is_constant())
     return a.followed_by({Op::integer_power, static_cast<int>(c)});
   return a.followed_by({Op::root, 0, c});

@@ -10,7 +10,7 @@
 namespace gestell::mechanism
 {
 
-/// What a condition asks of its argument.
+/// Relation of the argument of a condition to zero.
 enum class Relation
 {
   above,     ///< > 0
@@ -20,23 +20,23 @@ enum class Relation
 };
 
 /**
- * A scalar function f(x_0, x_1, ...), given at run time: a flat program for a stack of numbers.
+ * A scalar function f(x_0, x_1, ...), given at run time: a flat program for a stack machine.
  *
- * Formulas are built of formulas; constants and variables are the first ones, and constants are folded:
+ * Formulas are combined from formulas, starting with constants and variables; constants are folded:
  *
  *     const Formula t = Formula::variable(0), u = Formula::variable(1);
  *     const Formula F = -900. * u - 5e6 * power(u, 3.) + 10. * applied(Function::sin, 18.8 * t);
  *     const double  x[] = {0.1, 2e-3}, value = F.value(x);
  *
- * value() takes any number type: plain numbers, dual ones for exact derivatives, duals of duals for second derivatives.
- * It does not allocate.  Units are the caller's: a formula knows none.
+ * value() accepts any number type: plain numbers, dual numbers for exact derivatives, duals of duals for second
+ * derivatives. It does not allocate.  A formula has no units; they are the caller's responsibility.
  *
- * Kinks.  abs, sign, step, min, max and conditional are smooth on either side of a kink, where their argument is zero:
- * x itself, a - b of min(a, b) and max(a, b), the argument of a condition.  Given `sides` (n_kinks() numbers, > 0: the
- * side of positive arguments), value() takes each kink on that side and goes on smoothly beyond it, so that a solver
- * can locate kinks one by one; without, the arguments decide.  Square roots and powers c that are no whole number go on
- * below zero as -|x|^c then, max(u, 0)^1.5 beyond its kink; without sides they are no number there.  Of a conditional
- * only the chosen part is evaluated, and the kinks of the other part rest.
+ * Kinks.  abs, sign, step, min, max and conditional are smooth on both sides of a kink, where their argument is zero: x
+ * itself, a - b for min(a, b) and max(a, b), the argument of a condition.  With `sides` (n_kinks() numbers, > 0: the
+ * side of positive arguments) value() evaluates each kink on that side, smoothly continued beyond it, so that a solver
+ * can locate kinks one by one; without `sides` the arguments decide.  Square roots and non-integer powers c are then
+ * continued below zero as -|x|^c, for example max(u, 0)^1.5 beyond its kink; without `sides` they are nan there.  Only
+ * the selected branch of a conditional is evaluated, and the kinks of the other branch are inactive.
  */
 class Formula
 {
@@ -45,7 +45,7 @@ public:
   static Formula variable(int i); ///< x_i, 0 <= i < max_variables
 
   bool   is_constant() const { return code_.size() == 1 && code_[0].op == Op::constant; }
-  double constant() const { return code_[0].number; } ///< of a formula that is_constant()
+  double constant() const { return code_[0].number; } ///< of a formula with is_constant()
   int    n_variables() const;                         ///< one more than the highest variable it depends on
 
   /// f(x); x [n_variables()].
@@ -59,12 +59,12 @@ public:
   {
     double value, first, second;
   };
-  /// f, df/ds and d^2f/ds^2 at x + s d, s = 0: of a function of time with d = (1) its value, rate and acceleration.
+  /// f, df/ds and d^2f/ds^2 at x + s d, s = 0: for a function of time with d = (1) its value, rate and acceleration.
   Derivatives along(const double *x, const double *d, const double *sides = nullptr) const;
 
   int                             n_kinks() const { return static_cast<int>(kinks_.size()); }
-  const std::vector<std::string> &kinks() const { return kinks_; } ///< the functions they are of: "abs", "if" ...
-  /// Arguments [n_kinks()] of the kinks on the way through the formula; those at rest are left as they are.
+  const std::vector<std::string> &kinks() const { return kinks_; } ///< their functions: "abs", "if" ...
+  /// Arguments [n_kinks()] of the active kinks; those of inactive ones are unchanged.
   template <typename Number>
   void kink_arguments(const Number *x, const double *sides, Number *arguments) const
   {
@@ -76,7 +76,7 @@ public:
   friend Formula operator-(const Formula &a, const Formula &b);
   friend Formula operator*(const Formula &a, const Formula &b);
   friend Formula operator/(const Formula &a, const Formula &b);
-  /// a^b; where b varies, exp(b log a) for a > 0.
+  /// a^b; for variable b, exp(b log a) with a > 0.
   friend Formula power(const Formula &a, const Formula &b);
   friend Formula applied(Function f, const Formula &a);
   friend Formula atan2(const Formula &y, const Formula &x);
@@ -85,7 +85,7 @@ public:
   friend Formula step(const Formula &a); ///< 0 for a < 0, else 1
   friend Formula min(const Formula &a, const Formula &b);
   friend Formula max(const Formula &a, const Formula &b);
-  /// `then` where `argument` is in `relation` to zero, else `otherwise`.
+  /// `then` if `argument` is in `relation` to zero, else `otherwise`.
   friend Formula conditional(const Formula &argument, Relation relation, const Formula &then, const Formula &otherwise);
 
   static constexpr int max_variables = 16;
@@ -131,7 +131,7 @@ private:
   void    append(const Formula &other);
   Formula followed_by(Instruction instruction) const;
   Formula with_kink(Op op, const std::string &function) const;
-  Formula folded() const; ///< a constant if nothing in it varies
+  Formula folded() const; ///< a constant if it contains no variable
 
   static Formula joined(const Formula &a, const Formula &b); ///< both on the stack
 
@@ -169,7 +169,7 @@ Number Formula::run(const Number *x, const double *sides, Number *arguments) con
 {
   Number stack[max_depth];
   int    top = -1;
-  // Remembers the argument of a kink; its value for decisions, that of the history if there is one.
+  // Stores the argument of a kink and returns the value for decisions: that of the history if there is one.
   const auto side = [&](int kink, const Number &argument)
   {
     if (arguments)

@@ -37,7 +37,7 @@ void settle(const Formula &formula, const double *x, const double *rates, Kinks 
       const double argument = arguments[i].value(), rate = arguments[i].derivatives()[0];
       if (settled[i] || std::isnan(argument))
         continue;
-      const double side = argument > 0. || (argument == 0. && rate >= 0.) ? 1. : -1.; // where it goes, if at zero
+      const double side = argument > 0. || (argument == 0. && rate >= 0.) ? 1. : -1.; // at zero: where it moves
       changed           = side != sides[i];
       sides[i]          = side;
       settled.set(i);
@@ -67,7 +67,7 @@ std::vector<Guard> FormulaKinks::guards(const double *sides) const
 
 void FormulaKinks::guard_values(const double *x, const double *sides, double *g) const
 {
-  std::copy_n(sides, size(), g); // the side itself: kinks at rest are open
+  std::copy_n(sides, size(), g); // the guard is the side itself: kinks at rest are open
   formula_.kink_arguments(x, sides, g);
 }
 

@@ -10,10 +10,10 @@ namespace gestell::mechanism
 {
 
 /**
- * The kinks of a formula as guards of whatever follows it: an element, a joint, a prescribed motion.
+ * The kinks of a formula as guards of its user: an element, a joint, a prescribed motion.
  *
  * `sides` [n_kinks()] is history: the side of each kink, -1 or 1.  The value of a guard is the argument of its kink.
- * Events are called after the function, the place of the kink in the formula and where its argument goes:
+ * Event names contain the function, the position of the kink in the formula and the direction of its argument:
  * "abs_1_rises", "if_2_falls".
  */
 class FormulaKinks
@@ -23,7 +23,7 @@ public:
 
   int size() const { return formula_.n_kinks(); }
 
-  /// The sides of a motion that begins at x, with the rates x' [n_variables() each].
+  /// The sides of a motion that starts at x, with the rates x' [n_variables() each].
   void               start(const double *x, const double *rates, double *sides) const;
   std::vector<Guard> guards(const double *sides) const;
   void               guard_values(const double *x, const double *sides, double *g) const;

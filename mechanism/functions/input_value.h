@@ -5,8 +5,8 @@
 namespace gestell::mechanism
 {
 
-/// A quantity that whoever couples the machine with other programs sets from time to time; in between it goes on along
-/// a straight line:   x(t) = value + rate (t - since).  In the unit of the quantity that it is, in SI.
+/// A quantity set from time to time by programs coupled with the machine, extrapolated linearly in between: x(t) =
+/// value + rate (t - since).  In the SI unit of the quantity.
 struct InputValue
 {
   std::string name;

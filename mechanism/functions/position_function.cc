@@ -34,7 +34,7 @@ void PositionFunction::check_closure() const
   const double inside = 1e-12 * period_->length, first = period_->begin, last = first + period_->length;
   const auto   a = at(first + inside), b = at(last - inside);
   double       scale = std::abs(period_->rise);
-  for (int i = 0; i <= 32; ++i) // where the ends are flat and zero, rounding is that of what lies between
+  for (int i = 0; i <= 32; ++i) // scale of rounding: the ends may be flat and zero
   {
     const auto between = at(first + inside + i / 32. * (period_->length - 2. * inside));
     scale              = std::max({scale, std::abs(between.value), std::abs(between.first) * period_->length});
@@ -44,7 +44,7 @@ void PositionFunction::check_closure() const
   {
     std::ostringstream needed;
     needed << there << ", as where the next one begins" << out;
-    constexpr double joined = 1e-9; // what may be open at the ends of a period: rounding of constants, as pi
+    constexpr double joined = 1e-9; // gap at the ends of a period: rounding of constants such as pi
     require(std::abs(here - there) <= joined * scale / unit, name, what + " at the end of the period", here,
             needed.str());
   };
@@ -102,7 +102,7 @@ void PositionFunction::start(double x, double rate, double *history) const
   if (counts_periods())
   {
     if (rate < 0. && x == period_->begin + n * period_->length)
-      n -= 1.; // where it goes
+      n -= 1.; // the period that it enters
     history[formula_.n_kinks()] = n;
   }
   const double inner = period_ ? x - n * period_->length : x;

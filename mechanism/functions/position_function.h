@@ -14,15 +14,15 @@ namespace gestell::mechanism
  * A function f(x) of one variable with its first two derivatives: the position function of a cam or an indexing drive
  * (f the position of the follower, x the angle of the shaft), or a motion over time.
  *
- * Given by a formula, or by a table through which a CubicSpline goes.  With a period P
+ * Given by a formula, or by a table that a CubicSpline interpolates.  With a period P
  *
- *     f(x + P) = f(x) + rise,     begin <= x < begin + P as written.
+ *     f(x + P) = f(x) + rise,     given for begin <= x < begin + P.
  *
- * A table that is not periodic goes on straight beyond its ends.
+ * A table that is not periodic is extrapolated linearly beyond its ends.
  *
  * Smooth between kinks: those of the formula (FormulaKinks), or the ends of the table, "table_begins" and "table_ends".
- * A formula with kinks and a period is passed from period to period, "next_period", "previous_period".  In which piece
- * the motion is, is history [n_history()] of whoever follows the function; without it x decides.
+ * A formula with kinks and a period has events between periods, "next_period", "previous_period".  The present piece is
+ * history [n_history()] of the user of the function; without history x decides.
  *
  * Source: Dresig, Vul'fson, Dynamik der Mechanismen, position functions; docs/theory/position_functions.md (1).
  */
@@ -32,13 +32,13 @@ public:
   struct Period
   {
     double length = 0.; ///< P, > 0
-    double begin  = 0.; ///< of the period in which the formula is written
+    double begin  = 0.; ///< of the period for which the formula is given
     double rise   = 0.; ///< over one period
   };
   using Value = CubicSpline::Value; ///< f, f', f''
 
   /// @param formula  of variable(0)
-  /// @throws std::invalid_argument if f does not join at the ends of its period; without kinks f' and f'' must, too
+  /// @throws std::invalid_argument if f is not continuous at the ends of its period; without kinks also f' and f''
   explicit PositionFunction(const Formula &formula, const std::optional<Period> &period = {});
   /// @throws std::invalid_argument as CubicSpline does
   explicit PositionFunction(const CubicSpline &spline) : formula_(0.), spline_(spline) {}
@@ -55,7 +55,7 @@ public:
 private:
   int    table_ends() const { return spline_->is_periodic() ? 0 : 2; }
   bool   counts_periods() const { return period_ && formula_.n_kinks() > 0; }
-  double periods(double x) const; ///< whole ones from the one that is written to x
+  double periods(double x) const; ///< number of whole periods from the given one to x
   double periods(double x, const double *history) const;
   void   check_closure() const;
 

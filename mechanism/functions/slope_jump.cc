@@ -9,7 +9,7 @@ namespace gestell::mechanism
 namespace
 {
 
-/// Where guard i, open at `low` and past zero at `high`, crosses zero: just past it.
+/// Argument just past the zero of guard i, which is negative at `low` and positive at `high` (times `sign`).
 double crossing(const PositionFunction &f, int i, double sign, double low, double high, const double *history)
 {
   std::vector<double> g(std::size_t(f.n_guards()));

@@ -8,19 +8,19 @@
 namespace gestell::mechanism
 {
 
-/// Where a function or its slope jumps: what an ideal joint cannot follow, as masses would have to jump with it.
+/// A jump of a function or its slope, which an ideal joint cannot follow because masses would have to jump too.
 struct SlopeJump
 {
-  std::string kink;          ///< "if_1_rises", as events are called
+  std::string kink;          ///< name of its event, "if_1_rises"
   std::string what;          ///< "the value" or "the slope"
-  double      before, after; ///< of that
-  double      x = 0.;        ///< where
+  double      before, after; ///< value or slope on both sides
+  double      x = 0.;        ///< position
 };
 
-/// Whether two values differ by more than what rounded constants in formulas make: 1e-6 in SI units, and 1e-5 of them.
+/// Whether two values differ by more than the rounding of constants in formulas: 1e-6 in SI units plus a share of 1e-5.
 bool differ(double before, double after);
 
-/// The first jump in [from, to], which is walked in 1000 steps with the kinks in them located.
+/// The first jump in [from, to], searched in 1000 steps, with the kinks in them located.
 std::optional<SlopeJump> first_jump(const PositionFunction &f, double from, double to);
 
 } // namespace gestell::mechanism

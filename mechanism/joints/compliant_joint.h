@@ -24,7 +24,7 @@ namespace gestell::mechanism
  * contains the moment of the force about body 1: a common rotation is not damped. Along an axis fixed in space damping
  * brakes a common rotation by d s^2 omega.
  *
- * The tangent holds G, as that of a TransmittedElement does; geometric() is the rest of it.
+ * The tangent keeps G constant, as that of a TransmittedElement; geometric() is the remainder.
  *
  * Source: docs/theory/joints.md (11).
  */
@@ -37,14 +37,14 @@ public:
     IdealJoint::Equation demand;
     double               stiffness = 0.; ///< k [N/m, N m/rad], >= 0
     double               damping   = 0.; ///< d [N s/m, N m s/rad], >= 0
-    /// Of `along` an axis that body 1 carries: the signal is the force along the axis in its reference direction, the
-    /// sum of all such equations.
+    /// For `along` an axis fixed to body 1: the signal is the force along the axis in its reference direction, the sum
+    /// of all such equations.
     bool told_as_described = false;
   };
 
   static constexpr int max_equations = 6;
 
-  /// @throws std::invalid_argument without equations, for more than six, driven ones, negative stiffness or damping
+  /// @throws std::invalid_argument without equations, for more than six or driven ones, negative stiffness or damping
   CompliantJoint(const Placement &first, const Placement &second, std::vector<Equation> equations);
 
   int  n_measures() const override { return first_.n_measures() + second_.n_measures(); }
@@ -67,11 +67,11 @@ public:
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
   int n_equations() const { return int(equations_.size()); }
-  /// Deviation of measure i from s_0 and its rate, closed by the initial conditions.  gradient [k]
+  /// Deviation of measure i from s_0 and its rate; initial conditions make it zero.  gradient [k]
   RelativeMeasure::Value opening(int i, const double *u, const double *v, double *gradient) const;
 
 private:
-  /// lambda_i, G [k x n, column major] of all equations: the places are evaluated once.
+  /// lambda_i, G [k x n, column major] of all equations; the two points are evaluated only once.
   struct Kinematics
   {
     double s[max_equations], rate[max_equations], lambda[max_equations];

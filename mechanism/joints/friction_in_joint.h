@@ -10,7 +10,7 @@ namespace gestell::mechanism
  * A friction law in an ideal joint with one DOF, a displacement [m], or an angle [rad] with the sliding radius r. Its
  * signals are those of JointFriction: the force on the motion, the speed of sliding.
  *
- * The law is that of the surface: coefficients [1], speeds [m/s], bristles per metre; on the angle act
+ * The law is that of the surface: coefficients [1], speeds [m/s], bristles per metre; for the angle they become
  *
  *     R = r mu,     v_s/r,     r^2 sigma_0,     r^2 sigma_1.
  *

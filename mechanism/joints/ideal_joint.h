@@ -15,8 +15,8 @@ namespace gestell::mechanism
  * u_2), in relative measures s such as a . (x_2 - x_1) or |x_2 - x_1|.
  *
  * f is constant, or follows a MotionLaw: then the joint is a drive, whose work is an input.  The multiplier lambda_i is
- * the force [N] (torque [N m]) that increases s: of `along` the force on body 2 along a, of `distance` the push of the
- * rod, of `ratio` what acts on a measure with c_i = 1.
+ * the force [N] (torque [N m]) that increases s: for `along` the force on body 2 along a, for `distance` the
+ * compressive force of the rod, for `ratio` the force on a measure with c_i = 1.
  *
  * Source: docs/theory/joints.md (3).
  */
@@ -32,7 +32,7 @@ public:
     bool            driven = false;
   };
 
-  /// @throws std::invalid_argument without equations, for ratios of a wrong number, or driven ones without a law
+  /// @throws std::invalid_argument without equations, for a wrong number of ratios, or driven equations without a law
   IdealJoint(const Placement &first, const Placement &second, std::vector<Equation> equations,
              std::shared_ptr<const MotionLaw> law = nullptr);
 
@@ -47,7 +47,7 @@ public:
 
   double driven_value(const double *u) const override;
 
-  /// Signals: every multiplier by the name of its equation, then "resultant": of all that are forces.
+  /// Signals: every multiplier by the name of its equation, then "resultant", the magnitude of all forces.
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 

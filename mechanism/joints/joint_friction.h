@@ -16,8 +16,8 @@ namespace gestell::mechanism
  *
  *     p_i = -r_i mu(|v|) N tanh(|v|/v0) v_i/|v|,   v_i = r_i s_i',   N of JointLoad.
  *
- * Of a ball the three are rates of rotation alone (RelativeMeasure, spin).  The law reads multipliers from LocalMotion;
- * its tangent keeps them constant.
+ * For a ball joint the three are only rates of rotation (RelativeMeasure, spin).  The law reads multipliers from
+ * LocalMotion; its tangent keeps them constant.
  *
  * Source: docs/theory/contact.md (4), (4a).
  */
@@ -28,7 +28,7 @@ public:
   struct Parameters
   {
     SlidingFriction       friction;
-    std::array<double, k> radii{}; ///< r_i [m] of the surface that slides; 0: s_i is a displacement, r_i = 1
+    std::array<double, k> radii{}; ///< r_i [m] of the sliding surface; 0: s_i is a displacement, r_i = 1
     JointLoad             load;
   };
 
@@ -45,7 +45,7 @@ public:
       p[i] = -(lever(i) * lever(i)) * factor * m.v[i];
   }
 
-  /// "friction", of one motion with its sign; a torque where all turn, else the force on the surface.
+  /// "friction", for a single motion with its sign; a torque if all are rotations, else the force.
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 

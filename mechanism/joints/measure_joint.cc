@@ -13,7 +13,7 @@ namespace gestell::mechanism
 namespace
 {
 
-/// Masses would jump, with energy from nowhere.
+/// Refuses a jump, at which masses would change their speed without a finite force.
 void refuse_jump(const std::string &kink, const std::string &what, double before, double after)
 {
   if (!differ(before, after))
@@ -37,7 +37,7 @@ void MeasureJoint::constraint(const LocalMotion &motion, const double *history, 
 {
   const auto s = measure().evaluate(motion.u, motion.v, G, of_function(motion, history)).s;
   *g           = s - parameters_.offset - prescribed(motion.t, history).value;
-  if (measure().wraps()) // the angle tells no turns, its law may
+  if (measure().wraps()) // the angle is known up to full turns, its law may exceed one
     *g = std::remainder(*g, 2. * M_PI);
 }
 

@@ -7,16 +7,16 @@ namespace gestell::mechanism
 {
 
 /**
- * An ideal joint of one equation on one scalar of the motion:
+ * An ideal joint with one equation for one scalar of the motion:
  *
  *     g(t, u) = s(u) - offset - law(t) = 0,     p = G^T lambda.
  *
  * With s = y - f(x) it is a cam or an indexing drive, with other sums a screw, a rolling wheel, a rack, a gear on a
- * carrier; with a law it prescribes the motion of s.  lambda is the force [N] (torque [N m]) on s: of a position
- * function on y, while  -f' lambda  acts on x.
+ * carrier; with a law it prescribes the motion of s.  lambda is the force [N] (torque [N m]) on s: with a position
+ * function that on y, while  -f' lambda  acts on x.
  *
- * Signals: lambda by its name; of a position function "reaction", what acts on x; of a driven joint "power" [W], what
- * it feeds.
+ * Signals: lambda by its name; with a position function "reaction", the force on x; for a driven joint "power" [W], its
+ * input.
  *
  * Source: docs/theory/position_functions.md (3).
  */
@@ -28,7 +28,7 @@ public:
     CombinedMeasure measure;                    ///< s
     double          offset = 0.;                ///< [m or rad]
     std::string     name = "force", unit = "N"; ///< of lambda
-    std::string     reaction_unit = "N m";      ///< of what acts on x
+    std::string     reaction_unit = "N m";      ///< of the force on x
   };
 
   explicit MeasureJoint(const Parameters &parameters, std::shared_ptr<const MotionLaw> law = nullptr);
@@ -52,7 +52,7 @@ public:
   }
   std::vector<Guard> guards(const double *history) const override;
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
-  /// @throws std::domain_error where function or law, or their slopes, jump
+  /// @throws std::domain_error if function or law, or their slopes, jump
   void transition(int i, const LocalMotion &motion, double *history) const override;
 
   std::vector<Quantity> quantities() const override;
@@ -60,7 +60,7 @@ public:
 
 private:
   const CombinedMeasure &measure() const { return parameters_.measure; }
-  /// The part of the history that belongs to the position function; null where the motion decides.
+  /// The part of the history that belongs to the position function; null if the motion decides.
   const double *of_function(const LocalMotion &motion, const double *history) const
   {
     return motion.by_history ? history + ConstraintElement::n_history() : nullptr;

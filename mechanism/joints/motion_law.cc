@@ -62,7 +62,7 @@ PrescribedMotion BrakedMotion::at(double t, const double *history) const
   const auto &[v, family, T, ramps] = parameters_;
   if (history[passed] < 0.)
     return {v * (t - history[begin]), v, 0.};
-  // Inside the stage that history names, smoothly continued; behind the last corner at rest.
+  // Smooth continuation of the stage in `history`; at rest after the last corner.
   const auto   stage = std::size_t(history[passed]);
   const bool   ended = stage >= corners_.size();
   const double tau = ended ? corners_.back() : t - history[begin], s = tau / T, x = history[from];
@@ -78,7 +78,7 @@ PrescribedMotion BrakedMotion::at(double t, const double *history) const
   }
   PrescribedMotion motion{x + v * tau, v, 0.};
   const double     middle =
-      ended ? tau : 0.5 * ((stage > 0 ? corners_[stage - 1] : 0.) + corners_[stage]); // tells which ramps act
+      ended ? tau : 0.5 * ((stage > 0 ? corners_[stage - 1] : 0.) + corners_[stage]); // determines the active ramps
   for (const Ramp &part : ramps)
   {
     const double at = (tau - part.delay) / T, now = (middle - part.delay) / T;

@@ -28,7 +28,7 @@ public:
   virtual void             start(double t, double *history) const { (void)t, (void)history; }
   virtual PrescribedMotion at(double t, const double *history) const = 0;
 
-  /// Corners are guards, as those of Branches.
+  /// Corners are guards like those of Branches.
   virtual int                n_guards(const double *history) const { return (void)history, 0; }
   virtual std::vector<Guard> guards(const double *history) const { return (void)history, std::vector<Guard>{}; }
   virtual void guard_values(double t, const double *history, double *g) const { (void)t, (void)history, (void)g; }
@@ -46,8 +46,8 @@ public:
  *
  *     f' = v_0 w(tau/T),     f'' = v_0 w'(tau/T)/T,     tau = t - t_brake
  *
- * with w(s) = 1 - s (linear), (1 + cos pi s)/2 (cosine), or ramps of length T each that begin at delays t_i and take
- * shares A_i of the speed (shaped; sum A_i = 1), whose begins and ends are corners.
+ * with w(s) = 1 - s (linear), (1 + cos pi s)/2 (cosine), or ramps of length T each that start at delays t_i and reduce
+ * the speed by shares A_i (shaped; sum A_i = 1), whose starts and ends are corners.
  *
  * Source: docs/theory/joints.md, prescribed motion.
  */
@@ -72,7 +72,7 @@ public:
     std::vector<Ramp> ramps;         ///< of `shaped`
   };
 
-  /// @throws std::invalid_argument for a duration that is not positive, or shares that do not add up to one
+  /// @throws std::invalid_argument for a duration that is not positive, or shares whose sum is not one
   explicit BrakedMotion(const Parameters &parameters);
 
   int n_history() const override
@@ -90,7 +90,7 @@ public:
   void                     check_order(const SwitchCommand &order) const override;
 
 private:
-  bool brakes(const double *history) const; ///< and a corner is to come
+  bool brakes(const double *history) const; ///< and there is a later corner
 
   Parameters          parameters_;
   std::vector<double> corners_; ///< [s] after t_brake, ascending; the last one ends the motion
@@ -105,7 +105,7 @@ public:
   /// @throws std::invalid_argument if it jumps, which no finite force can cause
   explicit ProfileMotion(const CommandedProfile &speed);
 
-  int                n_history() const override { return 1 + speed_.n_history(); } ///< what to add to the integral
+  int                n_history() const override { return 1 + speed_.n_history(); } ///< constant of the integral
   void               start(double t, double *history) const override;
   PrescribedMotion   at(double t, const double *history) const override;
   int                n_guards(const double *history) const override { return speed_.n_guards(history + 1); }
@@ -114,14 +114,14 @@ public:
   void               transition(int i, double t, double *history) const override;
 
   bool                     command(const SwitchCommand &order, double t, double *history) const override;
-  std::vector<std::string> commands() const override; ///< "start" if it waits for it
+  std::vector<std::string> commands() const override; ///< "start" if it waits for this command
   void                     check_order(const SwitchCommand &order) const override;
 
 private:
   CommandedProfile speed_;
 };
 
-/// f(t) by a formula or a table of the time, whose kinks are events.
+/// f(t) by a formula or a table of time, whose kinks are events.
 class FunctionMotion : public MotionLaw
 {
 public:

@@ -24,7 +24,7 @@ Matrix3d directors(const double *u)
 }
 } // namespace
 
-/// From u alone: 1 is taken away before rounding would cut a small rotation off.
+/// Computed from u alone, so that the rounding of 1 does not affect small rotations.
 void OrthonormalDirectors::constraint(const LocalMotion &motion, const double *, double *g, double *G) const
 {
   const Map                               u(motion.u);

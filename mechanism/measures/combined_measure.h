@@ -10,14 +10,14 @@ namespace gestell::mechanism
 {
 
 /**
- * A scalar of several motions of the machine, a weighted sum from which a position function may be taken:
+ * A scalar of several motions of the machine, a weighted sum, optionally minus a position function:
  *
  *     s(u) = sum c_j y_j(u_j) - f(x(u_x)),     u = (u_1, u_2, ..., u_x)
  *     G    = (c_1 G_1, c_2 G_2, ..., -f' G_x),
  *     s''  = G u'' + sum c_j b_j - f' b_x - f'' x'^2.
  *
  * A screw is  along - pitch/2pi angle,  rolling  along - r angle,  a cam  lift - f(angle of the shaft).  Joints
- * prescribe its value, elements act on it; a spring in a cam drive is one on  lift - f.
+ * prescribe its value, elements act on it; a spring in a cam drive acts on  lift - f.
  *
  * `history` [n_history()] is that of f, stored by the user of the measure.
  *
@@ -45,10 +45,10 @@ public:
   Value evaluate(const double *u, const double *v, double *gradient, const double *history = nullptr) const;
   /// matrix += factor s''(u) [k x k, column major].
   void   add_curvature(const double *u, double factor, double *matrix, const double *history = nullptr) const;
-  double size() const; ///< of the numbers whose sum s is [m or rad]
-  /// An angle that jumps by 360 degrees at 180 degrees.
+  double size() const; ///< of the terms of s [m or rad]
+  /// Whether it is an angle that jumps by 360 degrees at 180 degrees.
   bool wraps() const { return plain() && plain()->measure.wraps(); }
-  /// The plain measure that this is, or null.
+  /// The plain measure, if it is one, or null.
   const PlacedMeasure *plain() const;
   /// f'(x), 0 without f: -f' times the force on y acts on x.
   double slope(const double *u, const double *history = nullptr) const;
@@ -63,7 +63,7 @@ public:
   void               transition(int i, const double *u, const double *v, double *history) const;
 
 private:
-  /// x, x' and where its measures begin in u; its gradient too.
+  /// x, x' and the index of its first measure in u; also its gradient.
   Value argument(const double *u, const double *v, double *gradient) const;
   int   first_of_x() const { return n_measures_ - x_.n_measures(); }
 

@@ -50,7 +50,7 @@ Vector3d Placement::translation(int i) const
   return i < int(linear_.size()) ? linear_[i].translation : Vector3d::Zero();
 }
 
-/// Of directors that stay rigid: from u_i = theta x e_i follows theta = 1/2 sum e_i x u_i.
+/// Rotation of rigid directors: u_i = theta x e_i gives theta = 1/2 sum e_i x u_i.
 Vector3d Placement::rotation(int i) const
 {
   if (free_)
@@ -58,7 +58,7 @@ Vector3d Placement::rotation(int i) const
   return i < int(linear_.size()) ? linear_[i].rotation : n_;
 }
 
-/// sum arm_i d_i; linear, so that there is no bias.
+/// sum arm_i d_i is linear in u, so that the bias is zero.
 void Placement::move_freely(const Vector3d &arm, const double *u, const double *v, MovedVector &x) const
 {
   using Directors = Eigen::Map<const Eigen::Matrix3d>;

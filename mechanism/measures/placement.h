@@ -37,7 +37,7 @@ public:
     Vector3d translation, rotation;
   };
 
-  /// A vector fixed to the body and how it moves:  x' = J u',  x'' = J u'' + bias.
+  /// A vector fixed to the body, and its derivatives:  x' = J u',  x'' = J u'' + bias.
   struct MovedVector
   {
     Vector3d                                                     value, rate, bias;
@@ -48,10 +48,10 @@ public:
   explicit Placement(const Vector3d &point = Vector3d::Zero());
   /// A body whose reference point is `centre`.
   Placement(const Vector3d &point, const Vector3d &centre, std::vector<LinearMeasure> linear);
-  /// The same, which also turns about the unit vector n.
+  /// The same, with a rotation about the unit vector n.
   Placement(const Vector3d &point, const Vector3d &centre, std::vector<LinearMeasure> linear, const Vector3d &n);
 
-  /// A body in space: the displacement of its centre of mass and of its three directors.
+  /// A free spatial body: the displacement of its centre of mass and of its three directors.
   static Placement free(const Vector3d &point, const Vector3d &centre);
 
   int             n_measures() const { return free_ ? max_measures : int(linear_.size()) + (turns_ ? 1 : 0); }
@@ -59,7 +59,7 @@ public:
   const Vector3d &point() const { return point_; }                                    ///< at u = 0 [m]
   double          size() const { return centre_.norm() + (point_ - centre_).norm(); } ///< of the terms of x [m]
 
-  /// Whether measure i may be omitted: not the angle, nor those of a spatial body.
+  /// Whether measure i can be omitted: not the angle, nor those of a spatial body.
   bool is_linear(int i) const { return i < int(linear_.size()); }
   /// The same point of a body without the linear measure i.
   Placement without(int i) const;
@@ -68,7 +68,7 @@ public:
   Vector3d translation(int i) const;
   Vector3d rotation(int i) const;
 
-  /// @param v  null: no rate and bias are needed
+  /// @param v  null: rate and bias are not computed
   void position(const double *u, const double *v, MovedVector &x) const;
   /// @param e  direction at u = 0
   void     direction(const Vector3d &e, const double *u, const double *v, MovedVector &moved) const;
@@ -83,7 +83,7 @@ private:
   Vector3d                   point_, centre_;
   std::vector<LinearMeasure> linear_;
   bool                       turns_ = false, free_ = false;
-  bool                       rotates_ = false; ///< some linear measure does more than to translate
+  bool                       rotates_ = false; ///< some linear measure has a rotation
   Vector3d                   n_       = Vector3d::Zero();
 };
 

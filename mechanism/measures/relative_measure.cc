@@ -39,7 +39,7 @@ struct RelativeMeasure::Pair
     }
   }
 
-  /// of_1 -= w . J_1, of_2 += w . J_2: of w . (x_2 - x_1), w held.
+  /// of_1 -= w . J_1, of_2 += w . J_2: gradient of w . (x_2 - x_1) at constant w.
   void add_difference(const Vector3d &w)
   {
     for (Eigen::Index i = 0; i < of_1.size(); ++i)
@@ -52,7 +52,7 @@ struct RelativeMeasure::Pair
 
   const Placement   &first, &second;
   const MovedVector &x_1, &x_2;
-  const double      *u_1, *u_2, *v_1, *v_2; ///< v: null if rates are not wanted
+  const double      *u_1, *u_2, *v_1, *v_2; ///< v: null if rates are not needed
   Gradient           of_1, of_2;
   Vector3d           d, d_rate = Vector3d::Zero(), d_bias = Vector3d::Zero();
 };
@@ -134,7 +134,7 @@ RelativeMeasure::Value RelativeMeasure::inclination(Pair &pair) const
   return {std::atan2(y, x), rate, w.dot(pair.d_bias) - 2. * stretch * rate};
 }
 
-/// Both directions of either body count, so that the angle of a tilted one does not depend on where a lies about the
+/// Uses both directions of each body, so that the angle of a tilted body does not depend on the choice of a about the
 /// axis.
 RelativeMeasure::Value RelativeMeasure::angle(Pair &pair) const
 {
@@ -179,7 +179,7 @@ RelativeMeasure::Value RelativeMeasure::spin(Pair &pair) const
   return sum;
 }
 
-/// Of `ratio` and `gear`.
+/// For `ratio` and `gear`.
 RelativeMeasure::Value RelativeMeasure::ratio(Pair &pair) const
 {
   const Eigen::Index k_1 = pair.of_1.size(), k_2 = pair.of_2.size();
@@ -199,7 +199,7 @@ RelativeMeasure::Value RelativeMeasure::ratio(Pair &pair) const
   return {s + centres.s, rate + centres.rate, centres.bias};
 }
 
-/// Wheels that mesh have turned with the line of centres, but for a small rest: of all psi + 2 pi n the nearest counts.
+/// Meshing wheels have rotated with the line of centres up to a small difference: the nearest psi + 2 pi n is used.
 RelativeMeasure::Value RelativeMeasure::mesh(const Vector3d &d, const Vector3d &d_rate, const Vector3d &d_bias,
                                              double turned, Vector3d &of_d) const
 {
@@ -236,7 +236,7 @@ PlacedMeasure PlacedMeasure::linear()
 RelativeMeasure::Value PlacedMeasure::evaluate(const double *u, const double *v, double *gradient) const
 {
   MovedVector x_1, x_2;
-  if (measure.form != RelativeMeasure::Form::ratio) // which looks at no place
+  if (measure.form != RelativeMeasure::Form::ratio) // a ratio needs no positions
   {
     first.position(u, v, x_1);
     second.position(u + first.n_measures(), v ? v + first.n_measures() : nullptr, x_2);

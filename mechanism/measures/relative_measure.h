@@ -47,16 +47,16 @@ struct RelativeMeasure
     second
   };
 
-  /// s jumps by 2 pi at pi.
+  /// Whether s jumps by 2 pi at pi.
   bool wraps() const { return form == Form::inclination || form == Form::angle; }
 
   Form                form    = Form::along;
   Vector3d            a       = Vector3d::Zero(); ///< direction; of `square` on body 1
-  Vector3d            b       = Vector3d::Zero(); ///< of `square` on body 2; of both angles at right angles to a
+  Vector3d            b       = Vector3d::Zero(); ///< for `square` on body 2; for both angles normal to a
   Carrier             carrier = Carrier::space;   ///< of a in `along`
   std::vector<double> ratios;                     ///< c_i [k] of `ratio` and `gear`
   double              reach          = 0.;        ///< c of `gear` [m], not zero
-  double              flank          = 0.;        ///< f of `gear`: c or -c by the flank that carries; 0: alpha_0 = 0
+  double              flank          = 0.;        ///< f of `gear`: c or -c for the flank in contact; 0: alpha_0 = 0
   double              pressure_angle = 0.;        ///< alpha_0 of `gear` [rad], 0 <= alpha_0 < pi/2
 
   /// s, s' = G u' and s'' = G u'' + bias.

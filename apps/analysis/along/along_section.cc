@@ -42,8 +42,8 @@ std::vector<double> frequencies(const ModesAlong &modes, std::size_t line)
   return f;
 }
 
-/// Lines that have a frequency somewhere, by their largest one, in the groups that share a chart; those that lose it
-/// somewhere, a drive that weights hold here and drive away there, come last.
+/// Lines with a frequency somewhere, sorted by their largest one, in groups that share a chart; lines that lose their
+/// frequency somewhere, such as a drive that weights stabilise here and drive away there, come last.
 std::vector<std::vector<std::size_t>> groups(const ModesAlong &modes)
 {
   std::vector<std::size_t> lines;
@@ -111,7 +111,7 @@ std::vector<double> degree_ticks(double low, double high)
   return ticks;
 }
 
-/// Room for the curves, for orders that lie just beside them, and so much that what does not change looks flat.
+/// Sets the height for the curves and for orders close to them, with a margin so that constant values look flat.
 void set_height(const AlongResult &along, const std::vector<std::size_t> &lines, Chart &chart)
 {
   double low = std::numeric_limits<double>::infinity(), high = 0.;
@@ -128,7 +128,7 @@ void set_height(const AlongResult &along, const std::vector<std::size_t> &lines,
       low  = std::min(low, k * f_0);
       high = std::max(high, k * f_0);
     }
-  constexpr double least_span = 0.1; // of the height, relative: what changes less is drawn as level as it is
+  constexpr double least_span = 0.1; // least span of the axis, relative to its middle
   const double     middle = 0.5 * (low + high), half = std::max(0.55 * (high - low), 0.5 * least_span * middle);
   chart.y.begin = std::max(0., middle - half);
   chart.y.end   = middle + half;
@@ -193,7 +193,7 @@ void add_shapes(const Result &result, const ModesAlong &modes, std::vector<Secti
     const LineExtremes own = line_extremes(modes, i);
     return own.min > 0. ? own.max / own.min - 1. : 0.;
   };
-  constexpr double seen_change = 0.02; // of a frequency, from which on shapes are drawn
+  constexpr double seen_change = 0.02; // least change of a frequency for which shapes are drawn
   for (std::size_t i = 0; i < modes.free.size(); ++i)
     if (change(i) > seen_change)
       lines.push_back(i);

@@ -6,9 +6,10 @@
 namespace gestell::apps
 {
 
-/// Frequencies over the coordinate, one line per tracked mode, in as many charts as keep them legible: within one the
-/// highest frequency is at most six times the lowest, and there are at most seven lines.  Orders of the excitation
-/// are horizontal lines, rings mark where one comes near a frequency.  Lines without frequency are left out.
+/// Sections with the frequencies over the coordinate, one line per tracked mode.  The lines are split into several
+/// charts to keep them legible: in one chart the highest frequency is at most six times the lowest, and there are at
+/// most seven lines.  Orders of the excitation are horizontal lines; rings mark where an order is close to a frequency.
+/// Lines without frequency are omitted.
 std::vector<Section> sections_of(const Result &result, const AlongResult &along);
 
 } // namespace gestell::apps

@@ -38,7 +38,7 @@ void set_range(const coupling::SweptCoordinate &coordinate, const ModesOptions &
     along.from = along.to - 2. * M_PI;
 }
 
-/// Speed of the coordinate at the start of the scene [rad/s]; 0 if it is no angle.
+/// Initial speed of the coordinate in the scene [rad/s]; 0 if it is not an angle.
 double start_speed(const coupling::SweptCoordinate &coordinate, const coupling::InitialState &start)
 {
   return coordinate.full_turn && coordinate.coordinate >= 0 ? std::abs(start.v[coordinate.coordinate]) : 0.;

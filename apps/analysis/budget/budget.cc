@@ -74,7 +74,7 @@ Chart errors_chart(const ErrorBudget &budget)
   return chart;
 }
 
-/// What the run took, and finding out each part of its error.
+/// CPU time of the run, and of the estimate of each part of its error.
 Chart cost_chart(const ErrorBudget &budget)
 {
   Chart chart;
@@ -151,7 +151,7 @@ public:
   }
   bool requested(const Scene &) const override { return requested_; }
   void check(Session &session) override { outputs_ = budget_outputs(session.scene(), list_); }
-  /// What stops a budget leaves the run that it is of; a run that stopped early has none.
+  /// A failure of the budget leaves its run intact; a run that stopped early has no budget.
   AnalysisOutcome compute(Session &session, Result &result) const override
   {
     if (!result.run->failure.empty() || result.run->interrupted)

@@ -6,7 +6,7 @@
 namespace gestell::apps
 {
 
-/// Errors of outputs for report, summary and terminal, as `run --budget` and `size` tell them.
+/// Errors of outputs for report, summary and terminal, as listed by `run --budget` and `size`.
 std::shared_ptr<const Answer> budget_answer(ErrorBudget budget);
 
 } // namespace gestell::apps

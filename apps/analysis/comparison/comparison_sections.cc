@@ -55,8 +55,8 @@ Chart overlay(const std::string &scene, const coupling::RunResult &run, const Co
   return chart;
 }
 
-/// The signals that two runs share, a chart for each of the first few: full lines of the first run, dashed ones of the
-/// other; of forces that are shaken once more around the main shock of the first.
+/// The signals that two runs share, one chart for each of the first few: full lines for the first run, dashed lines for
+/// the other. Forces that the main shock of the first run excites get a second chart around it.
 std::vector<Section::Drawing> overlay_charts(const std::string &scene, const coupling::RunResult &run,
                                              const ComparedRun &other)
 {

@@ -9,7 +9,7 @@
 namespace gestell::apps
 {
 
-/// A measure that both machines have.
+/// A measure common to both machines.
 struct SharedMeasure
 {
   std::string path, unit; ///< "crank.angle", "rad"
@@ -23,7 +23,7 @@ struct ComparedModes
   Eigen::MatrixXd             shapes; ///< [measures x modes] mass normalised
 };
 
-/// Modes of the scene and of another one, matched by their shapes.
+/// Modes of the scene and of another one, matched by shape.
 struct ComparedShapes
 {
   std::vector<SharedMeasure> measures;
@@ -46,10 +46,10 @@ void describe(Visitor &v, const ComparedMeasure &x)
   v("apparent_mass", x.mass, "kg, kg m^2", "of both machines along it");
 }
 
-/// Modes of like shape.
+/// A pair of modes with similar shapes.
 struct ComparedPair
 {
-  int    a = 0, b = 0; ///< numbers, from 1 on
+  int    a = 0, b = 0; ///< mode numbers, from 1
   double a_hz = 0., b_hz = 0., assurance = 0., a_seen = 0., b_seen = 0.;
 };
 

@@ -42,7 +42,7 @@ void describe(Visitor &v, const ComparedSignal &x)
   v("min", x.min, "", "smallest value");
 }
 
-/// A signal that both runs have, by its number in each.
+/// A signal common to both runs, with its index in each.
 struct SharedSignal
 {
   std::size_t a, b;
@@ -51,12 +51,12 @@ struct SharedSignal
 /// Signals of the same name and unit, in the order of the first run.
 std::vector<SharedSignal> shared_signals(const coupling::RunResult &a, const coupling::RunResult &b);
 
-/// The run of another scene beside this one.
+/// Comparison of a run with that of another scene.
 struct ComparedRun
 {
   std::string                                         scene; ///< its name
   coupling::RunResult                                 run;
-  std::vector<std::pair<std::string, ComparedSignal>> signals; ///< that both have
+  std::vector<std::pair<std::string, ComparedSignal>> signals; ///< common to both
 };
 
 template <class Visitor>
@@ -72,7 +72,7 @@ void describe_answer(Visitor &v, const ComparedRun &x)
   v.maybe(true, "compared_run", x, "", "extremes beside those of another scene, `run --compare`");
 }
 
-/// @param scene  name of the other one
+/// @param scene  name of the other scene
 ComparedRun compared_run(const coupling::RunResult &run, const std::string &scene, coupling::RunResult other);
 
 } // namespace gestell::apps

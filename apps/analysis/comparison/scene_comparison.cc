@@ -51,7 +51,7 @@ std::string window_text(const coupling::RunResult &run)
   return std::isfinite(run.from) ? short_text(run.from, 6) + " s" : "the start of the run";
 }
 
-/// Of a command that computes another scene beside its own.
+/// Base of analyses that also compute another scene.
 class Compare : public Analysis
 {
 public:

@@ -48,7 +48,7 @@ DrawnPair drawn_pair(const ComparedShapes &shapes, const coupling::ModePair &pai
   return own;
 }
 
-/// Measures that move in one of the pairs at least, by their largest amplitude; no more than there is room for.
+/// Measures that move in at least one of the pairs, by largest amplitude; not more than fit the drawing.
 std::vector<Eigen::Index> shown_measures(const std::vector<DrawnPair> &pairs)
 {
   Eigen::VectorXd size = Eigen::VectorXd::Zero(pairs.front().a.size());

@@ -8,9 +8,9 @@ namespace gestell::apps
 {
 
 /**
- * Shapes of matched modes side by side, a panel for each pair: at every measure a bar of the first machine and below it
- * one of the other, each shape with its largest amplitude at 1.  Angles are drawn times `arm` [m].
- * @return empty where there is no pair
+ * Shapes of matched modes, a panel for each pair: for every measure a bar of the first machine and below it one of the
+ * other, each shape scaled to a largest amplitude of 1.  Angles are multiplied by `arm` [m].
+ * @return empty if there is no pair
  */
 std::string shape_pairs_svg(const ComparedShapes &shapes, double arm);
 

@@ -13,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Of a measure: its unit, and its gradient [n].
+/// Unit and gradient [n] of a measure.
 struct Gradient
 {
   std::string     unit;
@@ -35,7 +35,7 @@ bool ends_with(const std::string &text, const std::string &end)
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Displacements and angles that are weights of the coordinates alone; those of springs apart.
+/// Displacements and angles that are linear in the coordinates; those of springs separately.
 void add_linear(const coupling::Machine &machine, Gradients &motions, Gradients &of_elements)
 {
   const coupling::MachineModel &model = machine.model();
@@ -116,7 +116,7 @@ ComparedModes compared_modes(const Result &result, const std::vector<SharedMeasu
   return compared;
 }
 
-/// Leaves out what moves in one machine alone: of a planar model the motions across.
+/// Removes measures that move in one machine only: for a planar model the motions normal to its plane.
 void keep_moving(ComparedShapes &shapes)
 {
   Eigen::Index kept = 0;

@@ -9,7 +9,7 @@
 namespace gestell::apps
 {
 
-/// A machine in the configuration of [modes].
+/// A machine with its configuration from [modes].
 struct MachineAt
 {
   const coupling::Machine *machine;
@@ -17,16 +17,16 @@ struct MachineAt
 };
 
 /**
- * Modes of two scenes at the measures that both have under the same name and with the same unit: coordinates of
- * bodies, motions of interfaces, [measure]; where there are none of these the displacements of elements.  Modes above
- * the frequency up to which a reduced frame holds are left out.
+ * Compares modes of two scenes at the measures that both have with the same name and unit: coordinates of bodies, DOFs
+ * of interfaces, [measure]; if there are none of these, the displacements of elements.  Modes above the frequency limit
+ * of a reduced frame are omitted.
  *
- * @return none if they share none that moves
+ * @return none if no common measure moves
  */
 std::optional<ComparedShapes> compared_shapes(const Result &a, const MachineAt &at_a, const Result &b,
                                               const MachineAt &at_b);
 
-/// That they share none, with some motions of both.
+/// Error text: no common measures, with some DOFs of both.
 std::string nothing_shared(const Result &a, const MachineAt &at_a, const Result &b, const MachineAt &at_b);
 
 } // namespace gestell::apps

@@ -11,11 +11,11 @@
 namespace gestell::apps
 {
 
-/// A curve that was measured at a machine.
+/// A measured curve.
 struct MeasuredResponse
 {
-  std::string                       file, name;    ///< what the file calls it, may be empty
-  int                               pair      = 0; ///< of FrequencyResponse::pairs, in whose unit the values are
+  std::string                       file, name;    ///< name: from the file, may be empty
+  int                               pair      = 0; ///< index in FrequencyResponse::pairs; the values have its unit
   bool                              has_phase = true;
   std::vector<double>               frequencies_hz;
   std::vector<std::complex<double>> values;
@@ -31,13 +31,13 @@ void describe(Visitor &v, const MeasuredResponse &x)
   v("points", x.values.size(), "", "number of frequencies");
 }
 
-/// Answer of one place to a force at one place.
+/// Response at one point to a force at one point.
 struct ResponsePair
 {
-  std::string from, to;
-  std::string unit;                           ///< "m/N"
-  int         derivatives = 0;                ///< by time, of a displacement: 0 receptance, 1 mobility, 2 accelerance
-  std::vector<std::complex<double>>   values; ///< by frequency; nan where an undamped mode is driven
+  std::string                         from, to;
+  std::string                         unit;            ///< "m/N"
+  int                                 derivatives = 0; ///< of the displacement: 0 receptance, 1 mobility, 2 accelerance
+  std::vector<std::complex<double>>   values;          ///< by frequency; nan where an undamped mode is excited
   std::vector<coupling::ResponsePeak> peaks;
 
   std::string name() const { return to + "/" + from; }
@@ -53,16 +53,16 @@ void describe(Visitor &v, const ResponsePair &x)
   v("peaks", x.peaks, "", "largest amplitudes");
 }
 
-/// Vibration of the machine, linearised at an operating point, per harmonic force.
+/// Vibration of the machine, linearised at an operating point, per unit harmonic force.
 struct FrequencyResponse
 {
   std::string                   kind;                           ///< "receptance", "mobility", "accelerance"
   std::string                   at;                             ///< "start", "equilibrium", "undeformed"
   double                        t     = 0.;                     ///< [s] of the operating point
-  bool                          moves = false;                  ///< it is a motion, not rest
-  std::vector<std::string>      closed_contacts, open_contacts; ///< names of elements with play
-  std::string                   not_condensed;      ///< why the whole equations were solved; empty: they were condensed
-  bool                          logarithmic = true; ///< axis of the frequencies
+  bool                          moves = false;                  ///< the operating point is a motion, not at rest
+  std::vector<std::string>      closed_contacts, open_contacts; ///< names of elements with clearance
+  std::string                   not_condensed;      ///< why the full equations were solved; empty: they were condensed
+  bool                          logarithmic = true; ///< frequency axis
   std::vector<double>           frequencies_hz;     ///< ascending
   std::vector<ResponsePair>     pairs;
   std::vector<MeasuredResponse> measured;
@@ -88,7 +88,7 @@ void describe_answer(Visitor &v, const FrequencyResponse &x)
   v.maybe(true, "frf", x, "", "`frf`");
 }
 
-/// What is read of it.
+/// Sections of the report.
 std::vector<Section> sections_of(const Result &result, const FrequencyResponse &response);
 
 /// frf.csv: `frequency [Hz]`, then for each pair `NAME re [unit]`, `NAME im [unit]`, `NAME abs [unit]`, `NAME phase

@@ -24,12 +24,12 @@ namespace
 
 using Complex = std::complex<double>;
 
-/// What files hold of a curve, before it is known for which pair it stands.
+/// A curve from a file, before its pair is known.
 struct ReadCurve
 {
   MeasuredResponse   curve;
   std::string        unit;        ///< "": as the pair has it
-  std::optional<int> derivatives; ///< of a displacement, where the file tells them
+  std::optional<int> derivatives; ///< of a displacement, if the file contains this number
   std::string        place;       ///< for messages
 };
 
@@ -59,7 +59,7 @@ Column column_of(const std::string &head)
   return column;
 }
 
-/// Where the parts of a curve stand.
+/// Columns of the parts of a curve.
 struct Columns
 {
   std::string name, unit, phase_unit;
@@ -197,7 +197,7 @@ void convert(ReadCurve &read, const ResponsePair &pair)
   MeasuredResponse &curve = read.curve;
   if (times < 0 && !curve.frequencies_hz.empty() && curve.frequencies_hz.front() == 0.)
   {
-    curve.frequencies_hz.erase(curve.frequencies_hz.begin()); // nothing can be said at rest
+    curve.frequencies_hz.erase(curve.frequencies_hz.begin()); // no value is defined at rest
     curve.values.erase(curve.values.begin());
   }
   for (std::size_t i = 0; i < curve.values.size(); ++i)

@@ -91,7 +91,7 @@ std::pair<double, double> default_band(const std::vector<coupling::Mode> &modes,
   double lowest = 0., highest = 0., fastest = 0.;
   for (const coupling::Mode &mode : modes)
     fastest = std::max(fastest, mode.frequency_hz);
-  constexpr double slow = 1e-3; // of the fastest mode: a drive that weights hold, or a foundation
+  constexpr double slow = 1e-3; // of the fastest mode: a drive stabilised by weights, or a foundation
   for (const coupling::Mode &mode : modes)
     if (mode.frequency_hz > slow * fastest)
     {

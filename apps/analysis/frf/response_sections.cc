@@ -19,7 +19,7 @@ std::vector<std::vector<std::size_t>> chart_groups(const FrequencyResponse &resp
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < response.pairs.size(); ++i)
   {
-    constexpr std::size_t most_curves = 5; // of a chart: curves of more are not told apart
+    constexpr std::size_t most_curves = 5; // in a chart: more curves cannot be distinguished
     const auto            joins       = [&](const std::vector<std::size_t> &group)
     { return group.size() < most_curves && response.pairs[group[0]].unit == response.pairs[i].unit; };
     const auto found = std::find_if(groups.begin(), groups.end(), joins);

@@ -18,16 +18,16 @@ using Complex = std::complex<double>;
 
 const Complex unknown(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
 
-/// Both are known, and the phase turns far.
+/// Whether both are finite, and the phase changes much.
 bool turns(Complex a, Complex b)
 {
-  // of a phase from one frequency to the next: a mode turns it by pi, so that three steps or more follow it
+  // of a phase between adjacent frequencies: a mode changes it by pi, so that there are at least three steps
   constexpr double widest_turn = M_PI / 3.;
   return std::isfinite(std::abs(a)) && std::isfinite(std::abs(b)) && a != 0. && b != 0. &&
          std::abs(std::arg(b / a)) > widest_turn;
 }
 
-/// Frequencies of damped modes in the band, with points beside them.
+/// Adds frequencies of damped modes in the band, with points next to them.
 void add_modes(const std::vector<coupling::Mode> &modes, std::vector<double> &frequencies)
 {
   const double lowest = frequencies.front(), highest = frequencies.back();
@@ -64,7 +64,7 @@ Complex ResponseSweep::value(const Answer &answer, const coupling::Vibration &vi
   {
     const auto &[on_q, on_v, on_a, on_p, on_lambda] = answer.signal;
     const double     weight   = std::abs(on_q[i]) + s * std::abs(on_v[i]) + s * s * std::abs(on_a[i]);
-    constexpr double rounding = 1e-12; // of a coordinate beside the motion of all, in the metric of mass
+    constexpr double rounding = 1e-12; // of a coordinate relative to the motion of all, in the metric of mass
     floor += masses_[i] > 0. ? rounding * weight * size / std::sqrt(masses_[i]) : 0.;
   }
   const Complex own = answer.signal.of(vibration, column);
@@ -84,7 +84,7 @@ ResponseSweep::Sample ResponseSweep::at(double f) const
   }
   catch (const coupling::ConvergenceFailure &)
   {
-    // an undamped mode lies there
+    // there is an undamped mode here
   }
   return sample;
 }

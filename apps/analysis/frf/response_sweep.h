@@ -10,27 +10,27 @@
 namespace gestell::apps
 {
 
-/// Answers to forces over frequencies, with so many frequencies that peaks show.
+/// Responses to forces, at enough frequencies to resolve the peaks.
 class ResponseSweep
 {
 public:
-  /// @param masses  diagonal of M [n]: what rounding leaves of a coordinate is judged by the kinetic energy of all
+  /// @param masses  diagonal of M [n]: the threshold for rounding of a coordinate follows from the total kinetic energy
   ResponseSweep(coupling::LinearResponse machine, Eigen::VectorXd masses)
       : machine_(std::move(machine)), masses_(std::move(masses))
   {
   }
 
   void add_force(const Eigen::VectorXd &force); ///< [n]
-  /// @param derivatives  how often it is differentiated by time
+  /// @param derivatives  number of time derivatives
   void add_answer(const coupling::LinearAnswer &answer, int derivatives);
 
   /**
-   * Fills frequencies, values and peaks of response.pairs, which are ordered by forces, then answers.  Frequencies are
-   * `asked` and
+   * Computes frequencies, values and peaks of response.pairs, which are ordered by forces, then responses.  Frequencies
+   * are `requested` and
    *
    *   - those of the damped modes between them, with their half-power points,
-   *   - midpoints, until from one to the next no phase turns by more than a sixth of a turn,
-   *   - tops of peaks.
+   *   - midpoints, until no phase changes by more than 60 degrees between adjacent frequencies,
+   *   - maxima of peaks.
    */
   void run(const std::vector<double> &requested, const std::vector<coupling::Mode> &modes, FrequencyResponse &response,
            std::vector<std::string> &warnings);
@@ -38,7 +38,7 @@ public:
   const std::string &not_condensed() const { return machine_.not_condensed(); }
 
 private:
-  /// Amplitudes of all pairs at one frequency [Hz]; nan where an undamped mode is driven.
+  /// Amplitudes of all pairs at one frequency [Hz]; nan where an undamped mode is excited.
   struct Sample
   {
     double                            f;
@@ -50,7 +50,7 @@ private:
     int                    derivatives;
   };
 
-  /// Amplitude of an answer; 0 if it is no more than rounding, as symmetry makes it.
+  /// Amplitude of a response; 0 if it is only rounding, for example because of symmetry.
   std::complex<double> value(const Answer &answer, const coupling::Vibration &vibration, Eigen::Index column) const;
   Sample               at(double f) const;
   double               amplitude(std::size_t pair, double f) const;

@@ -17,7 +17,7 @@ coupling::LinearAnswer differentiated(coupling::LinearAnswer answer, int derivat
   return answer;
 }
 
-/// Coordinates and their rates; where joints bind them, numbers of free motions.
+/// Coordinates and their rates; if joints constrain them, numbers of free motions.
 std::vector<std::string> state_names(const coupling::Machine &machine, const coupling::StateSpace &system)
 {
   std::vector<std::string> names;

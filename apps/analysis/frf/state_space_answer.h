@@ -6,9 +6,9 @@
 namespace gestell::apps
 {
 
-/// The scene's machine at an operating point, with inputs along options.from and outputs options.to; on the reduced
-/// frame where it has an unreduced one.
-/// @throws std::invalid_argument for options that do not fit, and where the machine is not of this form
+/// The scene's machine at an operating point as state-space model, with inputs options.from and outputs options.to; on
+/// the reduced frame if there is an unreduced one.
+/// @throws std::invalid_argument for invalid options, and if the machine has no such model
 StateSpaceModel state_space_of(const Scene &scene, PreparedMachine &prepared, const FrfOptions &options);
 
 } // namespace gestell::apps

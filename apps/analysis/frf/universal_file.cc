@@ -15,11 +15,11 @@ namespace gestell::apps
 namespace
 {
 
-/// Lines between two marks -1, the first of which names the data set.
+/// Lines between two markers -1; the first line identifies the data set.
 struct DataSet
 {
   std::string              file, kind;
-  int                      line = 0; ///< of the file, where its records begin
+  int                      line = 0; ///< line in the file at which its records begin
   std::vector<std::string> records;
 
   [[noreturn]] void refuse(std::size_t record, const std::string &reason) const
@@ -98,13 +98,13 @@ int first_number(const DataSet &set, std::size_t record)
   return int(std::strtol(set.records[record].c_str(), nullptr, 10));
 }
 
-/// A number that stands for a choice; -1: none.
+/// An integer that encodes a choice; -1: none.
 int whole(double number)
 {
   return number >= 0. && number <= 1e6 && number == std::floor(number) ? int(number) : -1;
 }
 
-/// Of the ordinate's numerator: 8 displacement, 11 velocity, 12 acceleration.
+/// Number of time derivatives, from the type of the ordinate's numerator: 8 displacement, 11 velocity, 12 acceleration.
 int derivatives_of(int data_type)
 {
   return data_type == 8 ? 0 : data_type == 11 ? 1 : data_type == 12 ? 2 : -1;

@@ -7,11 +7,11 @@
 namespace gestell::apps
 {
 
-/// A function of frequency as a data set 58 of a universal file holds it.
+/// A function of frequency from a data set 58 of a universal file.
 struct UniversalFunction
 {
   std::string                       name;             ///< its first line
-  int                               line        = 0;  ///< of the file, on which it begins
+  int                               line        = 0;  ///< number of its first line in the file
   int                               derivatives = -1; ///< 0 displacement, 1 velocity, 2 acceleration; -1: unknown
   bool                              is_complex  = true;
   std::vector<double>               abscissa; ///< [Hz]
@@ -20,12 +20,12 @@ struct UniversalFunction
 
 /**
  * The data sets 58 (function at nodal DOF) of a universal file in ASCII: real or complex, of even or uneven spacing, in
- * single or double precision; other data sets are passed over.
+ * single or double precision; other data sets are skipped.
  *
  * Source: Universal Dataset Number 58, Structural Dynamics Research Laboratory, University of Cincinnati, 30-Jun-1999.
  *
- * @throws std::invalid_argument with file and line: binary sets (58b), other abscissae than frequency, numbers that do
- *         not fit the head, units other than SI (data set 164), or no data set 58 at all
+ * @throws std::invalid_argument with file and line for binary sets (58b), abscissae other than frequency, values that
+ *         contradict the header, units other than SI (data set 164), or a file without data set 58
  */
 std::vector<UniversalFunction> read_universal_functions(const std::string &file);
 

@@ -59,7 +59,7 @@ void add_frequencies(PerturbedScenes &twins, const Result &result, SensitivityRe
   }
 }
 
-/// Derivatives of all that a run tells: docs/sensitivities.md.  `result` has the run; warnings are added.
+/// Derivatives of all scalar results of a run: docs/sensitivities.md.  `result` contains the run; warnings are added.
 SensitivityResult differentiated(RunInProgress &in, PerturbedScenes &twins, const std::vector<VariedKey> &keys)
 {
   Result           &result = in.result;
@@ -127,7 +127,7 @@ public:
   }
   void after_motion(RunInProgress &run) override
   {
-    PerturbedScenes twins = std::move(twins_); // two machines for each key, which only this needs
+    PerturbedScenes twins = std::move(twins_); // two machines per key, used only here
     if (!run.result.run->failure.empty() || run.result.run->interrupted)
       return;
     const std::clock_t begin = std::clock();

@@ -16,7 +16,7 @@ constexpr std::size_t most_charts = 8, most_bars = 10, most_named = 5;
 constexpr double      bar_half  = 0.3;  ///< height, of the place a bar has
 constexpr double      no_change = 1e-9; ///< [%] that is rounding
 
-/// Keys of an output, that with the largest change by 1 % first; those without any are left out.
+/// Keys of an output with a derivative, the one with the largest change by 1 % first.
 std::vector<Eigen::Index> by_influence(const SensitivityResult &result, const SensitivityOutput &output)
 {
   std::vector<Eigen::Index> order;
@@ -38,7 +38,7 @@ std::string signed_percent(double change)
   return (change > 0. ? "+" : "") + short_text(change, 3) + " %";
 }
 
-/// The part of a key that a reader looks for: "c_P" of "parameters.c_P".
+/// The last part of a key: "c_P" of "parameters.c_P".
 std::string short_key(const std::string &key)
 {
   const std::string table = "parameters.";
@@ -61,7 +61,7 @@ Chart tornado(const SensitivityResult &found, const SensitivityOutput &output, c
   const double most = std::abs(output.percent(found.keys[std::size_t(keys.front())], keys.front()));
   chart.x.label     = "change [%]";
   chart.x.begin     = -1.15 * most;
-  chart.x.end       = 1.9 * most; // names stand at the right
+  chart.x.end       = 1.9 * most; // space for names on the right
   chart.y.begin     = 0.;
   chart.y.end       = double(n) + 0.4;
   chart.y.ticks     = {0.};

@@ -88,7 +88,7 @@ Chart waterfall_chart(const Waterfall &spectra, const std::vector<coupling::Mode
   chart.x.begin            = 0.;
   chart.x.end              = highest_seen(spectra, most);
   chart.y.begin            = spectra.speed_rpm.front() - 0.05 * span;
-  constexpr double tallest = 0.25; // spectrum, of the range of the speeds: neighbours overlap, far ones do not
+  constexpr double tallest = 0.25; // height of a spectrum, relative to the range of speeds: only adjacent ones overlap
   chart.y.end              = fastest + tallest * span;
   for (std::size_t i = spectra.amplitudes.size(); i-- > 0;) // the lowest in front
   {

@@ -17,7 +17,7 @@ constexpr int window_turns    = 4;  ///< separate orders 1/4 apart, while a run-
 constexpr int most_orders     = 8;  ///< chosen: curves of one chart
 constexpr int samples_of_turn = 64; ///< eight in a period of the highest order
 
-/// A table of values y over x ascending, by the cubic through four neighbours.
+/// Interpolates a table of values y over ascending x by the cubic through four neighbours.
 double interpolated(const std::vector<double> &x, const std::vector<double> &y, double at)
 {
   const auto        upper = std::upper_bound(x.begin(), x.end(), at) - x.begin();
@@ -42,7 +42,7 @@ std::vector<double> column(const coupling::RunResult &run, std::size_t i)
   return values;
 }
 
-/// A rotor, and the column that tells its angle or its speed.
+/// A rotor, and the column with its angle or its speed.
 struct Reference
 {
   std::string rotor;
@@ -62,7 +62,7 @@ std::optional<Reference> reference_of(const Scene &scene, const coupling::RunRes
   return std::nullopt;
 }
 
-/// The history of a rotor that turns in one direction: rows of equal time, as at events, are taken once.
+/// The history of a rotor that rotates in one direction; rows of equal time, as at events, are used once.
 struct Turning
 {
   std::vector<std::size_t> rows;
@@ -84,7 +84,7 @@ Turning turning(const coupling::RunResult &run, const Reference &reference)
     if (!result.t.empty() && t[i] <= result.t.back())
       continue;
     if (!result.t.empty() && phi <= result.angle.back())
-      return {}; // it stands still or turns back
+      return {}; // it stops or reverses
     result.rows.push_back(i);
     result.t.push_back(t[i]);
     result.angle.push_back(phi);
@@ -92,7 +92,7 @@ Turning turning(const coupling::RunResult &run, const Reference &reference)
   return result;
 }
 
-/// [1/min] at the rows, by differences of the angle over a quarter of a turn.
+/// [1/min] at the rows, by differences of the angle over a quarter of a revolution.
 std::vector<double> speeds_of(const Turning &history)
 {
   std::vector<double> speeds;
@@ -106,7 +106,7 @@ std::vector<double> speeds_of(const Turning &history)
   return speeds;
 }
 
-/// Fewest rows of any turn.
+/// Smallest number of rows in any revolution.
 double rows_of_turn(const Turning &history)
 {
   double longest = 0.;
@@ -116,7 +116,7 @@ double rows_of_turn(const Turning &history)
 }
 
 /// Rows that give the coefficients of cos and sin of each order from the samples of a window: weighted least squares of
-/// them and of a parabola, which a run-up makes of most signals.
+/// these functions and a parabola, which approximates most signals of a run-up.
 Eigen::MatrixXd order_fit(int n_orders)
 {
   const int       n = window_turns * samples_of_turn;

@@ -24,13 +24,13 @@ bool is_fast(std::size_t n)
   return n == 1;
 }
 
-/// Instants at equal distances h at which signals are told.
+/// Equidistant instants (distance h) at which signals are sampled.
 struct SpectrumWindow
 {
   double      begin = 0., h = 0.;
   double      row_step = 0.; ///< mean distance of rows
   std::size_t n        = 0;
-  bool        on_rows  = false; ///< the instants are those of rows
+  bool        on_rows  = false; ///< the instants coincide with rows
 
   double t(std::size_t k) const { return begin + static_cast<double>(k) * h; }
 };
@@ -39,7 +39,7 @@ struct SpectrumWindow
 std::size_t even_rows(const HistoryRows &rows)
 {
   const double h = (rows.t(rows.size() - 2) - rows.t(0)) / static_cast<double>(rows.size() - 2);
-  // of the distance of rows: output times are multiples of it but for rounding, events lie anywhere
+  // relative to the distance of rows: output times are multiples of it up to rounding, events are at any time
   constexpr double even = 1e-6;
   std::size_t      i    = 1;
   while (i < rows.size() && std::abs(rows.t(i) - rows.t(0) - static_cast<double>(i) * h) <= even * h)
@@ -83,7 +83,7 @@ bool shakes(const std::string &unit)
   return unit == "N" || unit == "N m" || unit == "m/s^2" || unit == "Pa";
 }
 
-/// Columns of signals, not those of the energy at the end.
+/// Columns of signals, without those of the energy at the end.
 std::vector<std::size_t> chosen_columns(const coupling::RunResult &run)
 {
   std::vector<std::size_t> chosen, others;

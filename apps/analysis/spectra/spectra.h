@@ -9,26 +9,27 @@
 namespace gestell::apps
 {
 
-/// Amplitudes of a sum of cosines, in a Hann window:
+/// Amplitudes of a sum of cosines, with a Hann window:
 ///
 ///     A(k) = 2 / sum(w) |sum_j w_j (y_j - mean) exp(-2 pi i j k / n)|,   k = 0 .. n / 2,
 ///
-/// and half of it at k = n / 2, half the rate of the samples, where lines from below and above are one.
+/// and half of this at k = n / 2, the Nyquist frequency, where the lines of positive and negative frequency coincide.
 ///
-/// @param samples  at equal distances; fast where their number has no large prime factor
+/// @param samples  equidistant; fast if their number has no large prime factor
 std::vector<double> hann_amplitudes(std::vector<double> samples);
 
 /**
- * Spectra over the run, or from where extremes count, of the first forces, moments, accelerations and stresses, or else
- * of the first signals: at most six.  Histories of fewer than 256 rows have none.
+ * Spectra of the first forces, moments, accelerations and stresses, or else of the first signals, at most six.  They
+ * cover the run, or the interval in which extremes are evaluated.  Histories of fewer than 256 rows have none.
  *
- * Rows at equal distances h are transformed as they are, all of them but for the few at the end (fewer than one in a
- * hundred) that leave a number without prime factors above 97, and have lines up to 1/(2 h).  Others are sampled anew
- * on their straight lines and have lines up to 1/(4 h), h being the mean distance.  Above 8192 lines the highest are
- * left out: they do not fold, since no row was.  Motion faster than 1/(2 h) folds, as rows are instants.
+ * Rows at equal distances h are transformed directly.  A few rows at the end (fewer than 1 %) are dropped if the number
+ * of rows has a prime factor above 97.  Lines go up to 1/(2 h).  Other rows are interpolated linearly to equal
+ * distances and have lines up to 1/(4 h), where h is the mean distance.  If there are more than 8192 lines the highest
+ * are omitted, which causes no aliasing because no row is dropped for it.  Motion faster than 1/(2 h) is aliased,
+ * because rows are instantaneous values.
  */
-/// @param from  [s] rows from there on; a window of one period alone has no line beside its harmonics that Hann keeps
-/// apart
+/// @param from  [s] first row; a window of only one period has no other lines that the Hann window separates from the
+///   harmonics
 std::optional<Spectra> spectra(const coupling::RunResult &run, double from);
 
 } // namespace gestell::apps

@@ -19,7 +19,7 @@ std::vector<Section> sections_of(const Result &result, const RunSpectra &found)
 namespace
 {
 
-/// Of every run: a tenth of the cost of a short one.
+/// Computed for every run: costs a tenth of a short one.
 class SpectraOfRun : public Analysis
 {
 public:

@@ -31,7 +31,7 @@ double highest_shown(const Spectra &spectra, const std::vector<const SignalSpect
   return std::min(1.25 * static_cast<double>(last), static_cast<double>(lines)) * spectra.resolution_hz;
 }
 
-/// [Hz] of a drive that turns evenly; 0: there is none.
+/// [Hz] of a drive with constant speed; 0: there is none.
 double drive_hz(const std::optional<OrderTracking> &orders)
 {
   if (!orders || orders->speed_rpm.empty())
@@ -71,7 +71,7 @@ Chart spectrum_chart(const Result &result, const RunSpectra &found, const std::v
   for (const SignalSpectrum *spectrum : shown)
     chart.title += (spectrum == shown.front() ? ": " : ", ") + spectrum->name;
   chart.x = {"frequency [Hz]", 0., highest_shown(spectra, shown)};
-  // of the largest amplitude: 80 dB, what the window leaves beside a line some bins away
+  // relative to the largest amplitude: 80 dB, the leakage of the window a few bins away from a line
   constexpr double least_shown = 1e-4;
   chart.y       = {"amplitude [" + unit.unit + "]", least_shown * most * unit.factor, 2. * most * unit.factor};
   chart.y.scale = Scale::logarithmic;

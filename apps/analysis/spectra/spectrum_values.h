@@ -13,17 +13,17 @@ namespace gestell::apps
 struct SignalSpectrum
 {
   std::string         name, unit;
-  std::vector<double> amplitudes; ///< of frequency k times the resolution, k = 0, 1, ...
+  std::vector<double> amplitudes; ///< at frequency k times the resolution, k = 0, 1, ...
 };
 
-/// Spectra of signals over a run, in one Hann window.
+/// Spectra of signals over a run, with one Hann window.
 struct Spectra
 {
   double                      begin = 0., end = 0.; ///< [s] of the window
   int                         samples       = 0;
-  double                      resolution_hz = 0.; ///< 1 / (end - begin); a line is two of them wide
+  double                      resolution_hz = 0.; ///< 1 / (end - begin); the half-width of a spectral line
   double                      row_step      = 0.; ///< [s] between the rows
-  double                      carried_hz    = 0.; ///< up to which the rows carry; faster motion of theirs folds
+  double                      carried_hz    = 0.; ///< highest frequency resolved by the rows; faster motion is aliased
   std::vector<SignalSpectrum> signals;
 };
 
@@ -38,7 +38,7 @@ struct OrderedSignal
 struct Waterfall
 {
   std::string                      name, unit;
-  std::vector<double>              frequencies_hz, speed_rpm; ///< of the columns, of the rows [1/min]
+  std::vector<double>              frequencies_hz, speed_rpm; ///< of the columns; of the rows [1/min]
   std::vector<std::vector<double>> amplitudes;                ///< by speed, then by frequency
 };
 
@@ -46,14 +46,14 @@ struct Waterfall
 struct OrderTracking
 {
   std::string                rotor;
-  int                        turns = 0;    ///< of a window
+  int                        turns = 0;    ///< revolutions per window
   std::vector<int>           orders;       ///< 1, 2, ...
   std::vector<double>        t, speed_rpm; ///< of the windows: their middle, and the mean speed [1/min]
   std::vector<OrderedSignal> signals;
-  std::vector<Waterfall>     waterfalls; ///< of the same signals, where the speed changes
+  std::vector<Waterfall>     waterfalls; ///< of the same signals, if the speed changes
 };
 
-/// A run by frequency: over the time, and over the angle of a rotor that turns.
+/// Spectra of a run: over time, and over the angle of a rotor.
 struct RunSpectra
 {
   std::optional<Spectra>       spectra;

@@ -25,7 +25,7 @@ double linear(const std::vector<double> &x, const std::vector<double> &y, double
 std::vector<double> instants(const TurningHistory &history, double low, double high, double length)
 {
   std::vector<double> found;
-  constexpr int       n_windows = 30; // curves of a picture that are told apart
+  constexpr int       n_windows = 30; // curves of a picture that can be distinguished
   for (int k = 0; k < n_windows; ++k)
   {
     const double level = low + (high - low) * (k + 0.5) / n_windows;
@@ -41,7 +41,7 @@ std::vector<double> instants(const TurningHistory &history, double low, double h
   return found;
 }
 
-/// As many in a window as it has rows, so that nothing that they tell is folded down.
+/// Number of samples in a window equal to that of its rows, so that nothing they resolve is aliased.
 int samples_of_window(double row_step, double length)
 {
   constexpr int fewest_samples = 1024;    // four for each frequency
@@ -87,13 +87,13 @@ Waterfall waterfall(const std::string &name, const std::string &unit, const Turn
   const auto [low, high]        = std::minmax_element(history.speed_rpm.begin(), history.speed_rpm.end());
   constexpr double least_change = 0.2;      // of the highest speed: within less, orders do not cross frequencies
   constexpr double window_share = 1. / 12.; // of the run: a window in which speeds differ little
-  constexpr double fewest_turns = 6.; // at the highest speed: the window tells its first order from its neighbours
+  constexpr double fewest_turns = 6.; // at the highest speed: the window separates its first order from adjacent ones
   if (!(*high > 0.) || *high - *low < least_change * *high)
     return result;
   const double     length = std::max(window_share * (history.t.back() - history.t.front()), fewest_turns * 60. / *high);
   const double     row_step      = (history.t.back() - history.t.front()) / double(history.t.size() - 1);
   const int        n             = samples_of_window(row_step, length);
-  const double     rate          = std::min(1. / row_step, n / length); ///< [Hz] what tells the signal: rows or samples
+  const double     rate          = std::min(1. / row_step, n / length); ///< [Hz] of the rows or the samples
   constexpr double below_nyquist = 0.8; // of half the rate: linear interpolation between rows damps what is above
   const double     step          = std::min(highest, 0.5 * below_nyquist * rate) / n_frequencies;
   for (int k = 1; k <= n_frequencies; ++k)

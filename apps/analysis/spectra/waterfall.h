@@ -6,19 +6,19 @@
 namespace gestell::apps
 {
 
-/// What a waterfall is made of: rows of a history by ascending time, and the speed of the rotor [1/min] over it.
+/// Input of a waterfall: rows of a history in ascending time, and the rotor speed [1/min] at them.
 struct TurningHistory
 {
   std::vector<double> t, speed_rpm;
 };
 
 /**
- * Spectra of a signal over the speed of a rotor: amplitudes in windows after Hann about the instants at which the speed
+ * Spectra of a signal over the speed of a rotor: amplitudes in Hann windows around the instants at which the speed
  * first reaches equidistant values,
  *
  *     A(f) = 2 / sum(w) |sum w (y - mean) exp(-i 2 pi f t)|,
  *
- * a window as long as a twelfth of the run, but six turns at the highest speed at least.
+ * The length of a window is a twelfth of the run, but at least six revolutions at the highest speed.
  *
  * @param highest  [Hz] of the spectra
  * @return without windows if the speed changes by less than a fifth

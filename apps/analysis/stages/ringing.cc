@@ -23,7 +23,7 @@ using coupling::RunResult;
 
 const char *const contacts[] = {"lift_off", "touch_down", "closes", "opens"};
 
-/// From the last event of a contact on.
+/// After the last event of a contact.
 double ringing_begin(const RunResult &run, const Stage &last)
 {
   double begin = last.begin;
@@ -33,10 +33,10 @@ double ringing_begin(const RunResult &run, const Stage &last)
   return begin;
 }
 
-/// Samples at equal times; rows beside the grid, as at events, are left out.
+/// Samples at equal times; rows off the grid, as at events, are omitted.
 Eigen::MatrixXd samples_of(const HistoryRows &rows, double output_step, Ringing &ringing)
 {
-  constexpr double most_samples = 300; // of the pencil, whose cost grows with their cube
+  constexpr double most_samples = 300; // samples in the pencil; the cost grows with their cube
   const double     every        = std::max(1., std::floor((ringing.end - ringing.begin) / output_step / most_samples));
   std::vector<std::vector<double>> taken(ringing.signals.size());
   ringing.step = every * output_step;
@@ -54,7 +54,7 @@ Eigen::MatrixXd samples_of(const HistoryRows &rows, double output_step, Ringing 
   return samples;
 }
 
-/// Modes of the machine at rest where its driven joints stand at that state.
+/// Modes of the machine at rest with its driven joints in the position of that state.
 std::vector<coupling::Mode> modes_at_rest(PreparedMachine &prepared, const Eigen::VectorXd &end_state, double t)
 {
   coupling::Machine   &machine = prepared.machine;
@@ -76,14 +76,14 @@ std::vector<coupling::Mode> modes_at_rest(PreparedMachine &prepared, const Eigen
   const Eigen::VectorXd q = coupling::held_equilibrium(machine, known).q;
   machine.gather(t, q, known.state.v, known.state.v, local);
   machine.events().start(local);
-  constexpr int most_modes = 60; // of the linearised machine that are looked at
+  constexpr int most_modes = 60; // of the linearised machine that are compared
   return coupling::coupled_modes(machine, q, {}, most_modes);
 }
 
 /// The nearest of those that move what rings.
 void pair_up(const std::vector<coupling::Mode> &modes, RingingMode &mode)
 {
-  // relative distance of frequencies beyond which modes are no pair: chosen
+  // relative distance of frequencies beyond which modes do not match: chosen
   constexpr double near  = 0.25;
   double           least = near;
   for (std::size_t j = 0; j < modes.size(); ++j)
@@ -95,7 +95,7 @@ void pair_up(const std::vector<coupling::Mode> &modes, RingingMode &mode)
       }
 }
 
-/// Of stronger ones; empty: of none.
+/// Label as a combination of stronger ones; empty: it is none.
 std::string combination(const DampedOscillation &own, const std::vector<DampedOscillation> &stronger)
 {
   constexpr double combined = 0.015; // relative distance of poles within which one is a combination
@@ -126,7 +126,7 @@ RingingMode ringing_mode(const DampedOscillation &found, const std::vector<std::
   return mode;
 }
 
-/// A window shorter than two periods does not tell a frequency from a drift.  @return what is to be said of it
+/// A window shorter than two periods does not distinguish a frequency from a drift.  @return a note
 std::string leave_out_slow(std::vector<DampedOscillation> &found, const Ringing &ringing)
 {
   const double     window            = ringing.end - ringing.begin;

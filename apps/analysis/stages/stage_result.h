@@ -12,7 +12,7 @@
 namespace gestell::apps
 {
 
-/// A signal within a stage; nan where no row of the history lies in it.
+/// Extremes of a signal within a stage; nan if the stage contains no row of the history.
 struct StageExtremes
 {
   std::string signal, unit;
@@ -34,7 +34,7 @@ struct Stage
 {
   std::string                name;
   double                     begin = 0., end = 0.; ///< [s]
-  std::vector<StageExtremes> extremes;             ///< by the rows of the history
+  std::vector<StageExtremes> extremes;             ///< from the rows of the history
 };
 
 template <class Visitor>
@@ -51,7 +51,7 @@ struct RingingMode
 {
   struct Linearised
   {
-    int    mode          = 0; ///< its number, from 1 on
+    int    mode          = 0; ///< its number, from 1
     double frequency_hz  = 0.;
     double damping_ratio = 0.;
   };
@@ -60,7 +60,7 @@ struct RingingMode
   double                                      damping_ratio = 0.;
   std::vector<std::pair<std::string, double>> amplitudes;  ///< by signal, at the start of the window
   std::string                                 combination; ///< of stronger ones, "3 x 0.4026 Hz"; empty: it is a mode
-  std::optional<Linearised>                   linearised;  ///< damped, too
+  std::optional<Linearised>                   linearised;  ///< with damping
 };
 
 template <class Visitor>
@@ -81,14 +81,14 @@ void describe(Visitor &v, const RingingMode &x)
   v("linearised", x.linearised, "", "nearest mode of the machine linearised at rest; null: none is near");
 }
 
-/// What rings in the last stage, from where no contact opens or closes any more.
+/// Ringing in the last stage, after the last opening or closing of a contact.
 struct Ringing
 {
   double                   begin = 0., end = 0., step = 0.; ///< [s] window and samples
   std::vector<std::string> signals, units;
   double                   residual = 0.; ///< of the fit, relative to the signals
   std::vector<RingingMode> modes;         ///< ascending in frequency
-  std::string              note;          ///< what was left out, or why there are none
+  std::string              note;          ///< omissions, or why there are no modes
 };
 
 template <class Visitor>
@@ -103,11 +103,11 @@ void describe(Visitor &v, const Ringing &x)
   v("note", x.note, "", "what was left out, or why there are none");
 }
 
-/// A wheel is off the ground.
+/// Interval in which a wheel is off the ground.
 struct LiftOff
 {
   std::string wheel;
-  double      begin = 0., end = 0.; ///< [s]; the end of the run if it does not come down
+  double      begin = 0., end = 0.; ///< [s]; the end of the run if the wheel does not touch down
 };
 
 template <class Visitor>
@@ -120,9 +120,9 @@ void describe(Visitor &v, const LiftOff &x)
 
 struct StageResult
 {
-  std::vector<Stage>   stages; ///< as far as the run came
+  std::vector<Stage>   stages; ///< up to the end of the run
   std::vector<LiftOff> lift_offs;
-  Ringing              ringing; ///< without modes: not asked for, or not found
+  Ringing              ringing; ///< without modes: not requested, or not found
 };
 
 template <class Visitor>
@@ -135,7 +135,8 @@ void describe_answer(Visitor &v, const StageResult &x)
 
 std::vector<Section> sections_of(const Result &result, const StageResult &found);
 
-/// Intervals between the events "lift_off" and "touch_down" of each wheel; one that begins in the air comes down first.
+/// Intervals between the events "lift_off" and "touch_down" of each wheel; a wheel whose first event is "touch_down" is
+/// off the ground from `begin`.
 std::vector<LiftOff> lift_off_intervals(const coupling::RunResult &run, double begin, double end);
 
 } // namespace gestell::apps

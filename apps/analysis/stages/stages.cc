@@ -42,7 +42,7 @@ StageExtremes extremes_of(const HistoryRows &rows, const std::string &signal, co
   return found;
 }
 
-/// Where a border was missed: how far the signal of its switch came.
+/// For a missed boundary: the closest value of the signal of its switch.
 std::string unreached(const Scene &scene, const std::string &border, const RunResult &run)
 {
   std::string text = scene.stages.place + ": the run never came to the border '" + border + "'";
@@ -77,7 +77,7 @@ std::string over_at_start(const Scene &scene, const std::string &border)
   return text;
 }
 
-/// @return why they are fewer than asked for; empty: they are not
+/// @return why there are fewer than requested; empty: there are not
 std::string add_stages(const Scene &scene, const RunResult &run, StageResult &result)
 {
   const HistoryRows rows(run);
@@ -138,12 +138,11 @@ namespace
 {
 
 /**
- * The stages of [output.stages], what rings in the last one, and when wheels were off the ground; nothing of a run
- * without both.  Modes are identified from the last event of a contact on, by matrix_pencil(), and compared with those
- * of the machine linearised at rest where its driven joints stand in the end.
- *
- * A border that the run did not come to, or that lies at its begin, is its failure, unless it has one already: the
- * signal of the switch, how far it came, what it needs and what may be changed.
+ * The stages of [output.stages], the ringing in the last one, and the intervals in which wheels are off the ground;
+ * none for a run without both.  Modes are identified after the last event of a contact by matrix_pencil(), and compared
+ * with those of the machine linearised at rest with its driven joints in their final position.  A boundary that the run
+ * does not reach, or that is at its start, makes the run fail, unless it has failed already: the message contains the
+ * signal of the switch, the value reached, the value required and the possible changes.
  */
 class StagesOfRun : public Analysis
 {

@@ -31,14 +31,14 @@ namespace gestell::apps
 namespace
 {
 
-/// What `gestell chart` compares; empty lists: chosen for the scene.
+/// Selection for `gestell chart`; empty lists: chosen for the scene.
 struct ChartCommandOptions
 {
   std::vector<std::string> methods;          ///< keys such as "exact-6", "cvode-5", "bdf*"
   std::vector<std::string> steps;            ///< of fixed steps, "10 us" or plain numbers in s
   std::vector<std::string> tolerances;       ///< of controlled steps and of peers
-  std::vector<std::string> errors;           ///< that a choice is offered for
-  std::vector<std::string> signals;          ///< that errors are measured in; "q*" for all that begin so
+  std::vector<std::string> errors;           ///< errors for which a choice is given
+  std::vector<std::string> signals;          ///< for the errors; "q*" for all with this beginning
   std::vector<int>         modes;            ///< numbers of modes of the reduced frame
   std::string              reference;        ///< CSV file; empty: an own fine run
   std::string              events  = "both"; ///< "both", "on" or "off"
@@ -120,8 +120,7 @@ bool named(const std::string &name, const std::vector<std::string> &wanted)
                      });
 }
 
-/// The signals errors are measured in: those named, those the file has, those of the scene, or the interface and
-/// the bodies.
+/// The signals for the errors: those named, those in the file, those of the scene, or the interface and the bodies.
 std::vector<coupling::Signal> choose_signals(const Scene &scene, coupling::Machine &machine,
                                              const ChartCommandOptions &chart, const std::optional<ReferenceFile> &file)
 {
@@ -149,7 +148,7 @@ std::vector<coupling::Signal> choose_signals(const Scene &scene, coupling::Machi
   return chosen;
 }
 
-/// All runs of one method on one model, from coarse to fine, as long as they make sense.
+/// All runs of one method on one model, from coarse to fine, as long as they are useful.
 class SeriesRun
 {
 public:
@@ -267,7 +266,7 @@ WorkProblem problem_of(const ChartRequest &request, const Scene &scene, coupling
   return problem;
 }
 
-/// Methods asked for, or all that a quick or a whole chart has.
+/// Methods requested, or all methods of a quick or a full chart.
 std::vector<ChartMethod> methods_of(const ChartCommandOptions &chart, int n_coordinates)
 {
   const PeerChoice         peers = chart.peers ? PeerChoice::with : PeerChoice::without;

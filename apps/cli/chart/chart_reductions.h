@@ -13,7 +13,7 @@ struct ReductionChart
 {
   bool             requested = false, full = false;
   std::string      outputs; ///< empty: largest and smallest value of every signal
-  std::vector<int> modes;   ///< empty: as usual
+  std::vector<int> modes;   ///< empty: default
 };
 
 int chart_reductions(const CommonOptions &options, const ReductionChart &requested);

@@ -44,7 +44,7 @@ struct Candidate
   std::string   how;
 };
 
-/// An empty reference if a run failed; `why` then tells.
+/// An empty reference if a run failed, with the reason in `why`.
 Reference attempt(const WorkProblem &problem, const Candidate &candidate, std::string &why)
 {
   WorkProblem      patient  = problem;

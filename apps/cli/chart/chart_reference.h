@@ -9,25 +9,25 @@
 namespace gestell::apps
 {
 
-/// What errors are measured against.
+/// Reference solution for the errors.
 struct Reference
 {
   SignalSamples           values;
   double                  error = 0.; ///< of the reference itself, by scaled_error()
   double                  cpu_s = 0.;
   std::string             how;
-  coupling::MethodOptions method; ///< of its coarsest run, good for the size of the motion
+  coupling::MethodOptions method; ///< method of its coarsest run, accurate enough for the magnitude of the motion
 };
 
 /**
- * A fine run with located events: exact propagation by collocation of order 8, controlled; its error is the largest
- * distance from two others, one with the tenfold tolerance and one of order 6.  Where exact propagation cannot treat
- * the machine, or does not get to the end, BDF of controlled order does it, with ever larger tolerances, and at last
- * BDF 2 with fixed steps; `notes` tells why.  Without values if none gets to the end.
+ * A fine run with located events: exact propagation by collocation of order 8 with error control.  Its error is the
+ * largest difference to two other runs, one with ten times the tolerance and one of order 6.  If exact propagation
+ * cannot treat the machine, or does not reach the end, BDF of variable order is used with increasing tolerances, and
+ * finally BDF 2 with fixed steps; `notes` lists the reasons.  Without values if no method reaches the end.
  */
 Reference own_reference(const WorkProblem &problem, std::vector<std::string> &notes);
 
-/// The file as reference for the given signals; its error is its distance from our own reference.
+/// The file as reference for the given signals; its error is its difference to our own reference.
 Reference compared(const ReferenceFile &file, const std::vector<coupling::Signal> &signals, const Reference &own);
 
 } // namespace gestell::apps

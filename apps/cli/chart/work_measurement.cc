@@ -27,7 +27,7 @@ public:
 
   void step() override
   {
-    constexpr double rounding = 1e-12; // What rounding may leave of the last step, relative to the run.
+    constexpr double rounding = 1e-12; // rounding of the last step, relative to the run
     const double     now = integrator_.time(), slack = rounding * (problem_.samples.back() - problem_.begin);
     for (; next_ < problem_.samples.size() && problem_.samples[next_] <= now + slack; ++next_)
     {
@@ -124,8 +124,8 @@ WorkRun run_once(const WorkProblem &problem, const coupling::MethodOptions &meth
   return run;
 }
 
-/// Times a run without samples, short ones several times, and keeps the shortest times: what reading thousands of
-/// samples costs says nothing of the method.
+/// Times a run without samples, short ones several times, and keeps the shortest times: the cost of reading thousands
+/// of samples is not part of the method.
 template <typename Once>
 void time_unsampled(const WorkProblem &problem, WorkRun &run, const Once &once)
 {
@@ -283,7 +283,7 @@ MotionScales motion_scales(const WorkProblem &problem, const coupling::MethodOpt
   motion.watch(observer);
   step_to_end(problem, motion);
 
-  // Modes among themselves; the interface by its units; bodies each for itself, as a flywheel turns far.
+  // Modes together; the interface by units; each body separately, because a flywheel rotates far.
   const coupling::Machine &machine     = problem.machine;
   const int                n_interface = machine.model().n_interface();
   std::vector<int>         metres, radians, modes;

@@ -51,7 +51,7 @@ void for_each_point(const Chart &chart, const Use &use)
           use(curve.x[i], curve.y[i]);
 }
 
-/// The chart with both ends of both axes; ordinates need room for what is seen between those of the abscissa.
+/// The chart with both limits of both axes; limits of the ordinate follow from the values inside those of the abscissa.
 Chart with_axes(Chart chart)
 {
   Range x, y;
@@ -88,7 +88,7 @@ std::string axes(const Chart &chart, const Area &area)
          svg_text(area.left - 52., 0.5 * (area.top + area.bottom), chart.y.label, "label", "middle", -90.);
 }
 
-// What stands behind the curves
+// Elements drawn before the curves
 
 std::string shades(const Chart &chart, const Area &area)
 {
@@ -215,7 +215,7 @@ std::string marker(const Curve &curve, double x, double y, bool hollow)
   return "<path" + kind + " d=\"" + path + "Z\"/>";
 }
 
-/// Whether one of the segments at point i lies within the window, or at least not beside it.
+/// Whether one of the segments at point i is inside the window, or at least not entirely on one side of it.
 bool is_near(const Chart &chart, const Curve &curve, std::size_t i)
 {
   const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, curve.x.size() - 1);
@@ -224,7 +224,7 @@ bool is_near(const Chart &chart, const Curve &curve, std::size_t i)
   return !all([&](double x) { return x < chart.x.begin; }) && !all([&](double x) { return x > chart.x.end; });
 }
 
-/// The line as a path; of long curves per column of pixels at most four points in the order in which they occur.
+/// The line as an SVG path; long curves are reduced to at most four points per column of pixels, in their order.
 std::string line_path(const Chart &chart, const Curve &curve, const Area &area)
 {
   const auto drawn = [&](std::size_t i)
@@ -339,7 +339,7 @@ std::string legend(const Chart &chart, const Panel &panel, double x0, double y0)
 
 // Panels
 
-/// Heights above the drawing area of every panel: the same for all, so that they stand in line.
+/// Heights above the drawing area, equal for all panels so that they are aligned.
 struct Heights
 {
   double title = 0., legend = 0., numbers = 8.;

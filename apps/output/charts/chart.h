@@ -19,7 +19,7 @@ enum class LineStyle
   none
 };
 
-/// What is drawn at the points of a curve.
+/// Marker of the points of a curve.
 enum class Marker
 {
   disc,
@@ -30,18 +30,18 @@ enum class Marker
   none
 };
 
-/// What a browser shows of a point of a curve, and how its marker is drawn.
+/// Tooltip of a point of a curve, and the style of its marker.
 struct PointNote
 {
-  std::string text;           ///< shown by browsers under the pointer
+  std::string text;           ///< tooltip
   bool        hollow = false; ///< the marker is not filled
 };
 
 struct Curve
 {
-  std::string            name{};     ///< empty: not in the legend
-  std::vector<double>    x{}, y{};   ///< nan, and on a logarithmic axis what is not positive, interrupts the line
-  int                    colour = 0; ///< of the classes s0..s6, repeated
+  std::string            name{};     ///< empty: omitted from the legend
+  std::vector<double>    x{}, y{};   ///< nan, and on a logarithmic axis a value <= 0, interrupts the line
+  int                    colour = 0; ///< class s0..s6, modulo their number
   LineStyle              line   = LineStyle::full;
   Marker                 marker = Marker::none;
   std::vector<PointNote> notes{}; ///< one per point, or none
@@ -53,17 +53,17 @@ struct Curve
   }
 };
 
-/// A curve of rings without a line.
+/// A curve of circle markers without a line.
 Curve rings(const std::string &name, int colour);
 
-/// What stands in the legend for tiles of a colour.
+/// Legend entry for the tiles of a colour.
 Curve tile_name(const std::string &name, int colour);
 
-/// An abscissa worth looking at: a dotted line with its number above it, or without one a tick at the bottom.
+/// A marked abscissa: a dotted line with its label above it, or without a label a tick at the bottom.
 struct Mark
 {
   double      x;
-  std::string text; ///< shown by browsers under the pointer
+  std::string text; ///< tooltip
   int         number = 0;
   int         colour = 0; ///< of the tick
 };
@@ -75,19 +75,19 @@ struct Level
   std::string name;
 };
 
-/// Ordinates between which the paper is shaded.
+/// A shaded band between two ordinates.
 struct Shade
 {
   double begin, end;
   int    colour;
 };
 
-/// A filled rectangle below the curves: a bar, or a cell of a map.  Axes are not stretched for it.
+/// A filled rectangle below the curves: a bar, or a cell of a map.  The axis limits ignore tiles.
 struct Tile
 {
   double      x_begin, x_end, y_begin, y_end;
   int         colour;
-  std::string text{}; ///< shown by browsers under the pointer
+  std::string text{}; ///< tooltip
 };
 
 /// Curves that share a drawing area.
@@ -97,14 +97,14 @@ struct Panel
   std::vector<Curve> curves;
   std::vector<Tile>  tiles{};
 
-  /// Adds a curve told from those before it: by the next colour, every other one dashed.
+  /// Adds a curve in the next colour; every other curve is dashed.
   void add(Curve curve);
 };
 
-/// Curves in panels that share their axes; what leaves the window is cut off.
+/// Curves in panels that share their axes; curves are clipped to the window.
 struct Chart
 {
-  std::string        title, note{}; ///< the note stands below the title
+  std::string        title, note{}; ///< the note is printed below the title
   ChartAxis          x{}, y{};
   std::vector<Panel> panels{Panel()};
   std::vector<Mark>  marks{};
@@ -112,7 +112,7 @@ struct Chart
   std::vector<Shade> shades{};
   double             width = 640., height = 280.; ///< of a panel with its axes, without titles and legend
   int                columns       = 1;           ///< of panels
-  double             legend_column = 0.;          ///< width of a legend beside the panel; 0: rows above it
+  double             legend_column = 0.;          ///< width of a legend next to the panel; 0: rows above it
 };
 
 /// The chart as a stand-alone SVG document.  Long curves are thinned to the first, smallest, largest and last value of

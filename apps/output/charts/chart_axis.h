@@ -20,20 +20,20 @@ enum class Scale
 struct ChartAxis
 {
   std::string         label{};
-  double              begin = std::numeric_limits<double>::quiet_NaN(); ///< nan: as the curves need
+  double              begin = std::numeric_limits<double>::quiet_NaN(); ///< nan: from the curves
   double              end   = std::numeric_limits<double>::quiet_NaN();
   Scale               scale = Scale::linear;
   std::vector<double> ticks{};           ///< empty: chosen
   std::string (*tick_text)(double) = {}; ///< empty: the number, on a logarithmic axis as power of ten
 
   bool shows(double value) const { return value >= begin && value <= end; }
-  /// Whether a value has a place on the axis: it is finite, on a logarithmic one positive.
+  /// Whether the axis can show a value: it is finite, and positive on a logarithmic axis.
   bool has_place(double value) const;
 };
 
-/// The axis with the ends it lacks taken from values between `low` and `high` (low > high: there are none), a little
-/// wider: by the share `room` of their span, on a logarithmic axis by 0.08 of a decade.
-/// @throws std::invalid_argument if its end is not above its begin, or a logarithmic one begins at or below zero.
+/// The axis, with missing limits taken from the range [low, high] of the values (low > high: there are no values).  The
+/// range is widened by the share `room` of its span, on a logarithmic axis by 0.08 of a decade.
+/// @throws std::invalid_argument if the end is not above the start, or a logarithmic axis starts at or below zero.
 ChartAxis fitted(ChartAxis axis, double low, double high, double room);
 
 struct Tick
@@ -42,8 +42,8 @@ struct Tick
   std::string text;
 };
 
-/// About `count` ticks of a linear axis; of a logarithmic one powers of ten, and 2 and 5 times of them where less
-/// than 2.5 powers are in sight.
+/// About `count` ticks of a linear axis; on a logarithmic axis powers of ten, and their 2-fold and 5-fold where the
+/// window spans less than 2.5 decades.
 std::vector<Tick> ticks_of(const ChartAxis &axis, int count);
 
 /// Map of an axis with both ends to the coordinates [first, last] of a picture.
@@ -52,7 +52,7 @@ class AxisMap
 public:
   AxisMap(const ChartAxis &axis, double first, double last);
 
-  /// Place of a value, which must have one; far outside of the picture it is cut off.
+  /// Picture coordinate of a value for which has_place() is true; clamped far outside the picture.
   double at(double value) const;
 
 private:

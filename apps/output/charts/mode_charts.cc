@@ -55,7 +55,7 @@ bool is_angle(const Result &result, std::size_t i)
   for (const coupling::Body &body : result.scenery.bodies)
   {
     const bool rotor = body.kind == coupling::BodyKind::rotor, planar = body.kind == coupling::BodyKind::planar;
-    const bool rigid = body.kind == coupling::BodyKind::rigid; // of a director: it moves by the angle it turns by
+    const bool rigid = body.kind == coupling::BodyKind::rigid; // of a director, whose displacement is the rotation
     const int  n     = rigid ? 12 : planar || body.kind == coupling::BodyKind::point ? 3 : 1;
     if (const int own = static_cast<int>(i) - body.coordinate; own >= 0 && own < n)
       return rotor || (planar && own == 2) || (rigid && own >= 3);
@@ -65,7 +65,7 @@ bool is_angle(const Result &result, std::size_t i)
   return end == ".rx" || end == ".ry" || end == ".rz";
 }
 
-/// Amplitudes of internal modes of a reduced frame say nothing to a reader.
+/// Amplitudes of internal modes of a reduced frame have no meaning for a reader.
 bool is_physical(const Result &result, std::size_t i)
 {
   const int first_mode = result.model.interface >= 0 ? result.model.interface : result.scenery.n_frame;
@@ -73,7 +73,7 @@ bool is_physical(const Result &result, std::size_t i)
   return k < first_mode || k >= result.scenery.n_frame;
 }
 
-/// Length [m] that scales angles for display beside displacements: crank radius, or half the size of the machine.
+/// Length [m] that converts angles into displacements for display: crank radius, or half the size of the machine.
 double arm(const Scenery &scenery)
 {
   if (!scenery.rods.empty())

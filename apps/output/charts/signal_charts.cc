@@ -78,7 +78,7 @@ std::string joined_names(const coupling::RunResult &run, const SignalGroup &grou
   return names;
 }
 
-/// The legend names them, too; a title holds what fits into it.
+/// The names are also in the legend; the title contains as many as fit.
 std::string names_in_title(const coupling::RunResult &run, const SignalGroup &group)
 {
   constexpr std::size_t most_letters = 80; // of a title: 8 pixels each over 640
@@ -123,7 +123,7 @@ std::string file_name(std::string text)
   return text;
 }
 
-/// Where a signal changes most within the time of a shock, and by how much.
+/// Where a signal changes most within the duration of a shock, and by how much.
 std::pair<double, double> hardest_change(const coupling::RunResult &run, std::size_t j)
 {
   const std::vector<double> t = column(run, 0), y = column(run, j);

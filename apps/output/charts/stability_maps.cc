@@ -77,7 +77,7 @@ std::vector<Mark> marks_of(const std::vector<coupling::ModeAccuracy> &modes)
   return marks;
 }
 
-/// The part of a curve where it is positive, and its mirrored rest.
+/// The positive part of a curve, and the mirrored negative part.
 void add_signed(Panel &panel, const StabilityMap &map, const std::vector<double> &y, int colour)
 {
   Curve above{map.method, map.omega_h, y, colour}, below{"", map.omega_h, y, colour, LineStyle::dashed};

@@ -26,7 +26,7 @@ struct MethodFamily
   std::vector<MappedMethod> methods;
 };
 
-/// Every method of Gestell, with the parameters that are usual or that show how it fails.
+/// Every method of Gestell, with its usual parameters and with those that show how it fails.
 std::vector<MethodFamily> method_families();
 
 /// One method at one damping ratio, over omega h.
@@ -37,7 +37,7 @@ struct StabilityMap
   double                                zeta;
   std::vector<double>                   omega_h;
   std::vector<coupling::StepProperties> step;
-  std::vector<coupling::Overshoot>      displaced; ///< from a displacement
+  std::vector<coupling::Overshoot>      displaced; ///< from an initial displacement
 };
 
 /// Maps of `families` for omega h from 1e-2 to 1e3, a hundred points a decade.
@@ -67,10 +67,10 @@ CsvTable maps_csv(const std::vector<StabilityMap> &maps);
 
 struct NamedSvg
 {
-  std::string name, svg; ///< file name without ending
+  std::string name, svg; ///< file name without extension
 };
 
-/// For one damping ratio: spectral radius, period error, numerical damping, overshoot; `modes` are drawn in as marks.
+/// For one damping ratio: spectral radius, period error, numerical damping, overshoot; `modes` are marked.
 std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families, const std::vector<StabilityMap> &maps,
                                        double zeta, const std::vector<coupling::ModeAccuracy> &modes);
 

@@ -112,8 +112,8 @@ std::vector<WorkSeries> work_series(const WorkPrecision &chart)
 
 std::vector<std::size_t> pareto_front(const WorkPrecision &chart, int model)
 {
-  // A run that the reference does not resolve is at least as accurate as what it does resolve: it beats others, but its
-  // own place is not known.
+  // Errors below the resolution of the reference count as that resolution: such runs rank before others, and their own
+  // order is unknown.
   const double resolved = 10. * chart.models[std::size_t(model)].reference_error;
   const auto   error_of = [&](std::size_t i)
   { return usable(chart.points[i]) ? chart.points[i].error : std::max(chart.points[i].error, resolved); };
@@ -142,7 +142,7 @@ std::optional<WorkAtError> work_at_error(const WorkPrecision &chart, const WorkS
 {
   if (error < 10. * chart.models[series.model].reference_error)
     return std::nullopt;
-  // From the finest run that has an error back to the last one that is too coarse.
+  // Backwards from the finest run with an error to the last one that is too coarse.
   std::optional<WorkAtError> found;
   for (auto i = series.points.rbegin(); i != series.points.rend(); ++i)
   {

@@ -11,7 +11,7 @@ namespace gestell::apps
 {
 
 /**
- * A result lists its members once, beside its struct; visitors write them as JSON, as rows of a table and as lines of
+ * A result lists its members once, next to its struct; visitors write them as JSON, as rows of a table and as lines of
  * the reference:
  *
  *     template <class Visitor>
@@ -25,10 +25,9 @@ namespace gestell::apps
  *     v(name, value, unit, meaning)
  *     v.maybe(is, name, value, unit, meaning)   absent where `is` is false
  *
- * A value is a number, a truth, a text, a described value, a list of values, pairs of a name and a value, or a
- * std::optional of these, null where it holds nothing.  Null, too, is a number that is not finite.  What is computed
- * from members may stand in place of one; it must be possible of a value-initialised result, whose members the
- * reference lists.
+ * A value is a number, a boolean, a string, a described value, a list of values, pairs of a name and a value, or a
+ * std::optional of these. An empty optional and a number that is not finite become null. An expression of members may
+ * replace a member; it must be valid for a value-initialised result, because the reference is generated from one.
  */
 struct AnyVisitor
 {
@@ -64,19 +63,19 @@ template <class T>
 inline constexpr bool is_list<T, std::void_t<decltype(std::declval<const T &>().begin())>> =
     !std::is_convertible_v<const T &, std::string> && !is_pairs<T>;
 
-/// Null where it is empty.
+/// Null for an empty string.
 inline std::optional<std::string> unless_empty(const std::string &text)
 {
   return text.empty() ? std::nullopt : std::optional(text);
 }
 
-/// Null where it is zero.
+/// Null for zero.
 inline std::optional<double> unless_zero(double x)
 {
   return x == 0. ? std::nullopt : std::optional(x);
 }
 
-/// Values by a name that each of them has.
+/// Pairs of the name of each item and the item.
 template <class T, class NameOf>
 std::vector<std::pair<std::string, T>> by_name(const std::vector<T> &items, NameOf name_of)
 {
@@ -86,7 +85,7 @@ std::vector<std::pair<std::string, T>> by_name(const std::vector<T> &items, Name
   return pairs;
 }
 
-/// Values by names.
+/// Pairs of names and values.
 template <class Names, class Values>
 std::vector<std::pair<std::string, double>> pairs_of(const Names &names, const Values &values)
 {

@@ -9,7 +9,7 @@ namespace gestell::apps
 template <class T>
 Json described_json(const T &value);
 
-/// Members as an object.
+/// Writes the members into an object.
 struct JsonMembers
 {
   Json json = Json::object();
@@ -27,7 +27,7 @@ struct JsonMembers
   }
 };
 
-/// For sources alone, as Json is.
+/// Include this header in .cc files only, as Json.
 template <class T>
 Json described_json(const T &value)
 {

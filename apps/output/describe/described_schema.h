@@ -11,8 +11,8 @@ namespace gestell::apps
 template <class T>
 Json described_schema();
 
-/// Members as a JSON schema, and under keys that begin with "~" what member_rows() reads of them: "~" has unit and
-/// meaning, "~optional" is beside what may hold nothing.  For sources alone, as Json is.
+/// Writes the members as a JSON schema.  Keys that begin with "~" are for member_rows(): "~" has unit and meaning,
+/// "~optional" marks what can be null.  Include this header in .cc files only, as Json.
 struct SchemaMembers
 {
   Json properties = Json::object(), required = Json::array();
@@ -32,7 +32,7 @@ struct SchemaMembers
   }
 };
 
-/// Of a described value, with what it holds in place of T{}.
+/// Schema of a described value, with `value` in place of T{}.
 template <class T>
 Json object_schema(const T &value)
 {
@@ -69,11 +69,11 @@ Json described_schema()
     return {{"type", "string"}};
 }
 
-/// The schema without these keys.
+/// The schema without the keys that begin with "~".
 Json published(const Json &schema);
 
-/// The rows of a table in Markdown, a member each, with those of what it holds: path ("signals.NAME.max",
-/// "events[].t"), type, unit and meaning.
+/// Markdown table rows, one per member, nested members included: path ("signals.NAME.max", "events[].t"), type, unit
+/// and meaning.
 std::string member_rows(const Json &schema, const std::string &at = "");
 
 } // namespace gestell::apps

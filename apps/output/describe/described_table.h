@@ -9,7 +9,7 @@
 namespace gestell::apps
 {
 
-/// Described values, one a row.  Members of described members have columns of their own, lists have none.
+/// A table of described values, one per row.  Members of described members have separate columns; lists have none.
 struct DescribedTable
 {
   using Cell = std::variant<std::string, double, long, bool>;
@@ -22,7 +22,7 @@ struct DescribedTable
   std::vector<Column>            columns;
   std::vector<std::vector<Cell>> rows;
 
-  /// Columns under the names that files have had for long.
+  /// The table with columns renamed to the names used in existing files.
   DescribedTable renamed(const std::vector<std::pair<std::string, std::string>> &names) &&;
 
   CsvTable    csv() const;
@@ -35,8 +35,8 @@ struct DescribedTable
 struct TableRow
 {
   DescribedTable                   &table;
-  bool                              first;         ///< names the columns, too
-  bool                              blank = false; ///< there is no value
+  bool                              first;         ///< also adds the columns
+  bool                              blank = false; ///< there is no value: empty fields
   std::string                       prefix{};
   std::vector<DescribedTable::Cell> cells{};
 

@@ -11,14 +11,14 @@
 namespace gestell::apps
 {
 
-/// A file of MATLAB in version 5, which NumPy (scipy.io), Octave and Julia read as well.  It is written to a temporary
-/// file beside its place and renamed by finish(), so that it appears whole or not at all.
+/// A MAT-file of version 5 (MATLAB), which NumPy (scipy.io), Octave and Julia also read.  It is written to a temporary
+/// file in the same folder and renamed by finish(), so that it appears complete or not at all.
 class MatFile
 {
 public:
   static bool available(); ///< built with libmatio
 
-  /// @throws coupling::WriteFailure if it cannot be written, as the others
+  /// @throws coupling::WriteFailure if the file cannot be written, as do the other functions
   MatFile(const std::filesystem::path &path, const std::string &title);
   ~MatFile();
   MatFile(const MatFile &) = delete;

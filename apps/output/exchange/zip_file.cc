@@ -43,7 +43,7 @@ ZipFile::~ZipFile()
 void ZipFile::add(const std::string &name, const std::string &bytes)
 {
   zip_fileinfo about{};
-  about.tmz_date.tm_year      = 1980; // the first one an archive knows: contents alone count
+  about.tmz_date.tm_year      = 1980; // the earliest year in an archive, so that the bytes depend only on the contents
   about.tmz_date.tm_mday      = 1;
   constexpr std::size_t plain = 0xffffffff; // size from which an entry is one of zip64
   bool written = zipOpenNewFileInZip64(zip_, name.c_str(), &about, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,

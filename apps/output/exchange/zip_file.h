@@ -8,8 +8,8 @@
 namespace gestell::apps
 {
 
-/// An archive that appears whole or not at all: written beside its place and renamed by finish().  Equal contents give
-/// equal bytes.
+/// An archive that appears complete or not at all: a temporary file in the same folder, renamed by finish().  Equal
+/// contents give equal bytes.
 class ZipFile
 {
 public:
@@ -17,7 +17,7 @@ public:
 
   /// @throws coupling::WriteFailure if it cannot be written
   explicit ZipFile(const std::filesystem::path &path);
-  ~ZipFile(); ///< removes what was not finished
+  ~ZipFile(); ///< removes an unfinished archive
   ZipFile(const ZipFile &) = delete;
 
   /// @param name  "resources/scene.toml"

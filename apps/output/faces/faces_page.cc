@@ -38,14 +38,14 @@ Triple edges_of(const SurfaceReport &face)
   return {face.max[0] - face.min[0], face.max[1] - face.min[1], face.max[2] - face.min[2]};
 }
 
-/// In the file's unit, and in metres where that is another one.
+/// A length in the unit of the file, and in metres if that unit is another one.
 template <typename Words>
 std::string twice(const coupling::LengthUnit &unit, const Words &words)
 {
   return words(unit) + (unit.length == 1. ? "" : " = " + words(metre));
 }
 
-/// Without an exponent up to 10^9.
+/// The number, without an exponent up to 10^9.
 std::string plain(double x)
 {
   return std::abs(x) >= 1e6 && std::abs(x) < 1e9 ? std::to_string(std::lround(x)) : short_text(x, 5);
@@ -71,7 +71,7 @@ std::string direction_words(const Triple &e)
   return text + ")";
 }
 
-/// Word and value, as the page shows them of the face that is chosen; the first is what it is.
+/// Label and value pairs for the page, shown when the face is selected; the first is its kind.
 Json facts_of(const SurfaceReport &face, const coupling::LengthUnit &unit)
 {
   const auto at    = [&](const Triple &x) { return twice(unit, [&](const auto &u) { return place(x, u); }); };
@@ -89,7 +89,7 @@ Json facts_of(const SurfaceReport &face, const coupling::LengthUnit &unit)
   return facts;
 }
 
-/// What a reader must know where a face cannot be had alone.
+/// A note if no selector distinguishes a face from others.
 std::string others_of(const SurfaceReport &face)
 {
   if (face.found_with.empty())
@@ -118,8 +118,8 @@ Json list_of(const MeshReport &report)
   return list;
 }
 
-/// The picture on so few triangles that a page with it stays small; what is finer than some thousandths of the frame is
-/// drawn together where there are more.
+/// The picture with few enough triangles for a small page; details below some thousandths of the frame are merged if it
+/// has more.
 coupling::FacePicture light_picture(const coupling::FacePicture &picture)
 {
   constexpr std::size_t most_triangles = 55000; // four numbers of four bytes each, in base64 1.2 MB of the page

@@ -8,15 +8,15 @@ namespace gestell::apps
 {
 
 /**
- * faces.html: the frame to turn, to click and from eight sides, a table of its faces, and of the face that is chosen
- * kind, place and size, in the file's unit and in metres, and the entry that selects it in a scene.  Opens without a
+ * faces.html: an interactive view of the frame, eight fixed views and a table of its faces.  For the selected face the
+ * page shows kind, position and size, in the file's unit and in metres, and the scene key that selects it.  Needs no
  * network.
  *
  * @param file  as the user gave it
  */
 std::string faces_page(const coupling::MeshReport &report, const std::string &file, const std::string &version);
 
-/// The entry [frame.surface.NAME] of a face under a name of its own, "face 12".
+/// The table [frame.surface.NAME] of a face with a name of its own, "face 12".
 std::string face_entry(const coupling::SurfaceReport &surface);
 
 } // namespace gestell::apps

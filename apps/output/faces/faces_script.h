@@ -3,7 +3,7 @@
 namespace gestell::apps
 {
 
-/// What turns and picks the faces of the page from their table, `frame`.
+/// Script that rotates the view and picks faces, from their table `frame`.
 extern const char *const faces_script;
 extern const char *const faces_style;
 

@@ -82,13 +82,13 @@ void append(const fs::path &list, const std::string &name)
   const auto  written = ::write(file, text.data(), text.size());
   const auto  reason  = last_error();
   const bool  whole   = written == ssize_t(text.size());
-  if (!whole && written > 0 && ftruncate(file, before) != 0) // a line without an end is passed over, too
+  if (!whole && written > 0 && ftruncate(file, before) != 0) // an incomplete line is skipped when read
     errno = reason.value();
   if ((close(file) != 0 && whole) || !whole)
     throw coupling::WriteFailure(list.string(), whole ? last_error() : reason);
 }
 
-/// What a file is called in the folder, by its own name and by where links lead; empty: it lies elsewhere.
+/// Names of a file in the folder, direct and through links; empty: it is elsewhere.
 std::vector<std::string> names_of(const fs::path &file, const fs::path &folder)
 {
   std::vector<std::string> names;
@@ -256,7 +256,7 @@ void OwnFolder::keep_list(const std::set<std::string> &names)
     write_file(path_ / list_name, text);
     names_ = names;
   }
-  catch (const coupling::WriteFailure &) // the longer list is right, too: what it names is gone
+  catch (const coupling::WriteFailure &) // the old list is valid too: it also names deleted files
   {
   }
 }

@@ -10,16 +10,16 @@
 namespace gestell::apps
 {
 
-/// Whether a name is one of a pattern in which a '*' stands for any letters, or none, but '/'.
+/// Whether a name matches a pattern in which '*' stands for any letters except '/', or none.
 bool has_form(const std::string &name, const std::string &pattern);
 
 /**
- * A folder into which results are written, and which of its files are ours.
+ * A folder for results, and the list of those of its files that are ours.
  *
- * The list `.gestell-files` names every file that this program wrote there, a line each, relative to the folder.  A
- * name is entered before its file appears, so that the list is complete whenever a process is killed.  A file is ours
- * if the list names it, it is a plain file, and no link leads to it inside the folder.  Nothing else is ever replaced
- * or removed.
+ * The list `.gestell-files` names every file that this program wrote there, one per line, relative to the folder. A
+ * name is entered before its file appears, so that the list is complete even if the process is killed. A file is ours
+ * if the list names it, it is a plain file, and its path inside the folder contains no link. No other file is ever
+ * replaced or removed.
  */
 class OwnFolder
 {
@@ -30,34 +30,34 @@ public:
 
   bool owns(const std::string &name) const;
 
-  /// Why `name` cannot be written: "charts is a link", "history.csv was not written by gestell"; "" if it can.  Of a
-  /// name that ends in "/" the folder alone is judged.
+  /// Why `name` cannot be written: "charts is a link", "history.csv was not written by gestell"; "" if it can.  If the
+  /// name ends in "/", only the folder is checked.
   std::string obstacle(const std::string &name) const;
 
   /**
-   * Whether files of these names can be written, before anything is computed.
+   * Checks before the computation that files of these names can be written.
    *
-   * @param patterns  of names, '*' for any letters, or folders that end in "/"
+   * @param patterns  names, with '*' for any letters, or folders that end in "/"
    * @param inputs    files that the command reads: none of them may be replaced
-   * @throws std::invalid_argument with the file in the way and the remedy
+   * @throws std::invalid_argument with the obstructing file and the remedy
    */
   void require_free(const std::vector<std::string>           &patterns,
                     const std::vector<std::filesystem::path> &inputs = {}) const;
 
-  /// Whether this name is one of the files, by itself or by a link.
+  /// Whether this name is one of the files, directly or through a link.
   bool is_any_of(const std::string &name, const std::vector<std::filesystem::path> &inputs) const;
 
-  /// The place of a file to be written: enters it in the list, makes its folder, in which what killed processes left
-  /// goes.
+  /// Returns the path of a file that is about to be written.  Enters it in the list, makes its folder and removes
+  /// leftovers of killed processes there.
   /// @throws std::invalid_argument for an obstacle(), coupling::WriteFailure
   std::filesystem::path claim(const std::string &name);
-  /// Enters a file that is there and whose content has proved to be ours.
+  /// Enters an existing file whose content was recognised as ours.
   void adopt(const std::string &name);
-  void write(const std::string &name, const std::string &content); ///< @throws as claim()
+  void write(const std::string &name, const std::string &content); ///< @throws as claim() does
 
   /// Removes a file if it is ours.
   void remove(const std::string &name);
-  /// Removes all of ours for which `goes` is true, folders that are empty then, and what killed processes left.
+  /// Removes all files of ours for which `goes` is true, folders that become empty, and leftovers of killed processes.
   void remove_all(const std::function<bool(const std::string &)> &goes);
 
 private:
@@ -68,10 +68,10 @@ private:
 
   std::filesystem::path path_;
   std::set<std::string> names_;   ///< of the list
-  std::set<std::string> cleared_; ///< folders in it that hold nothing abandoned
+  std::set<std::string> cleared_; ///< folders in it without leftovers of killed processes
 };
 
-/// Writes a file and removes it in the folder, or above it in the first one that exists; why that failed, or none.
+/// Writes and removes a test file in the folder, or in its first existing parent; returns the error, if any.
 std::error_code probe(const std::filesystem::path &folder);
 
 } // namespace gestell::apps

@@ -8,23 +8,23 @@
 namespace gestell::apps
 {
 
-/// The files of an answer, written into a folder as far as they can be.
+/// Writes the files of a result into a folder and collects the failures.
 class Writing
 {
 public:
   explicit Writing(const std::filesystem::path &folder) : folder_(folder) {}
 
   const std::vector<std::string> &names() const { return names_; }       ///< written, relative to the folder
-  const std::vector<std::string> &failures() const { return failures_; } ///< what could not be written, and why
+  const std::vector<std::string> &failures() const { return failures_; } ///< with the name of the file
 
   void write(const std::string &name, const std::string &content);
 
-  /// Takes the place of a file on the disk that is written last; nothing where there is none.
+  /// Reserves space on the disk for a file that is written last; without effect if the file cannot be created.
   void keep_room(const std::string &name, std::size_t bytes);
   void give_room_back() { room_.clear(); }
 
-  /// Files that are of use together: all of them are written or none.
-  /// @param write  takes the folder and the list of names, which it extends by each name before it writes it
+  /// Writes files that are only useful together: all of them or none.
+  /// @param write  takes the folder and the list of names; it appends each name before it writes the file
   template <typename Write>
   void together(const Write &write)
   {
@@ -33,7 +33,7 @@ public:
     {
       write(folder_, names_);
     }
-    catch (const std::runtime_error &failure) // the disk
+    catch (const std::runtime_error &failure) // for example a full disk
     {
       give_up(before, failure.what());
     }
@@ -53,12 +53,12 @@ private:
 };
 
 /**
- * Writes an answer that was long in the making: what cannot be written is left out, and all of it then goes into a new
- * folder for temporary files.
+ * Writes an expensive result. Files that cannot be written are skipped; the whole result is then written into a new
+ * temporary folder.
  *
  * @return names of the files written
- * @throws coupling::WriteFailure if a file could not be written, when all others are: with the file, the reason, and
- * where the answer is
+ * @throws coupling::WriteFailure after writing all other files if one could not be written: with the file, the reason,
+ * and the folder of the result
  */
 std::vector<std::string> write_or_rescue(const std::filesystem::path          &folder,
                                          const std::function<void(Writing &)> &write);

@@ -18,7 +18,7 @@ namespace
 std::pair<std::size_t, std::size_t> window_of(const ChartAxis &axis, const std::vector<double> &x)
 {
   std::size_t first = 0, last = x.size();
-  while (first + 1 < last && x[first + 1] < axis.begin) // false if it has no begin
+  while (first + 1 < last && x[first + 1] < axis.begin) // false if it has no start
     ++first;
   while (last > first + 1 && x[last - 2] > axis.end)
     --last;
@@ -77,7 +77,7 @@ void add_curves(Json &data, const Chart &chart)
     seen.push_back({"", {}, part(curve.y, first, last)});
   const std::vector<double> x              = part(curves.front().x, first, last);
   constexpr std::size_t     most_rows      = 2000; // of all curves: two for each pixel of a chart
-  constexpr std::size_t     fewest_buckets = 250;  // of each curve, however many there are
+  constexpr std::size_t     fewest_buckets = 250;  // for each curve, for any number of curves
   const std::size_t         buckets        = std::max(fewest_buckets, most_rows / (2 * curves.size() + 1));
   const auto                rows           = telling_rows(x, seen, chart.marks, buckets);
   data["x"]                                = base64(chosen(curves.front().x, rows, first));
@@ -98,13 +98,13 @@ bool can_live(const Chart &chart)
          std::all_of(curves.begin(), curves.end(), [](const Curve &curve) { return ascending(curve.x); });
 }
 
-/// Rows from first to before last where y is smallest and largest; what is no number is gone over.
+/// Rows from first to before last with the smallest and largest y; values that are not numbers are skipped.
 std::pair<std::size_t, std::size_t> extremes(const std::vector<double> &y, std::size_t first, std::size_t last)
 {
   std::size_t low = first, high = first;
   for (std::size_t i = first; i < last; ++i)
   {
-    if (!(y[i] >= y[low])) // it is smaller, or one of them is no number
+    if (!(y[i] >= y[low])) // it is smaller, or one of them is not a number
       low = std::isnan(y[i]) ? low : i;
     if (!(y[i] <= y[high]))
       high = std::isnan(y[i]) ? high : i;

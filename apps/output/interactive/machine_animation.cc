@@ -48,7 +48,7 @@ Eigen::VectorXd column(const std::vector<Eigen::Vector3d> &points)
   return all;
 }
 
-/// Where linearised modes hold; without such, the first picture of the run.
+/// Configuration of the linearised modes; without modes the first saved state of the run.
 Eigen::VectorXd rest_of(const Result &result)
 {
   if (result.modes_at.size() > 0 || !result.run || result.run->picture_states.empty())
@@ -72,7 +72,7 @@ AnimationInstants animation_instants(const Result &result, std::size_t most)
   const auto      &times        = result.run->picture_times;
   const auto      &states       = result.run->picture_states;
   const auto      &peak         = result.peak;
-  constexpr double dense_swings = 3.; // on either side of the main peak: the blow and its first echoes
+  constexpr double dense_swings = 3.; // before and after the main peak: the impact and its first echoes
   const auto       dense        = [&](double t)
   { return peak && peak->half_swing > 0. && std::abs(t - peak->t) <= dense_swings * peak->half_swing; };
   const std::size_t around = std::min(std::size_t(std::count_if(times.begin(), times.end(), dense)), most / 2);

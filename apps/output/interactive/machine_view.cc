@@ -18,12 +18,12 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_instants = 200; ///< pictures of a film; more make the page heavier
+constexpr std::size_t most_instants = 200; ///< states of an animation; more make the page too large
 /// largest displacement of an enlarged motion, of the machine's size: bodies must not pass through each other
 constexpr double motion_size = 0.02;
 constexpr double exactness   = 1e-4; ///< of the drawn positions, of the machine's size
 
-/// Parts of a thing at rest.
+/// Parts of an object at rest.
 Json parts_json(const MachineAnimation &machine)
 {
   Json parts = Json::array();
@@ -72,14 +72,14 @@ double largest_of(const Displacements &all)
   return largest;
 }
 
-/// Whether the straight line between neighbouring instants tells what lies between.
+/// Whether linear interpolation between adjacent instants is accurate.
 bool is_smooth(const std::vector<PartMotion> &motions, const std::vector<double> &times,
                const MachineAnimation &machine)
 {
   for (std::size_t i = 0; i < motions.size(); ++i)
   {
     const Shape     &part        = machine.parts()[i];
-    constexpr double smooth_turn = 0.1; // way off the straight line between neighbours, of a part's own size
+    constexpr double smooth_turn = 0.1; // deviation from linear interpolation, relative to the size of the part
     if (!is_straight(motions[i].ideal, times, smooth_turn * Skin{part.points, part.displacement, {}}.size()))
       return false;
   }
@@ -95,7 +95,7 @@ double round_enlargement(double x)
   return digit >= 0. ? std::round(x / std::pow(10., digit)) * std::pow(10., digit) : std::round(10. * x) / 10.;
 }
 
-/// Of many parts fewer instants, so that the page stays light; no motion between them is made up then.
+/// Fewer instants for many parts, to limit the size of the page; motion between them is then not interpolated.
 std::size_t instants_of(std::size_t n_parts)
 {
   constexpr std::size_t fewest = 24; // a film of one swing or two
@@ -147,7 +147,7 @@ std::string mode_name(const char *of, std::size_t j, const coupling::Mode &mode)
   return std::string(of) + " mode " + std::to_string(j + 1) + ": " + short_text(mode.frequency_hz) + " Hz";
 }
 
-/// Where the bodies are at an instant, between the pictures beside it; empty: no picture is near.
+/// Positions of the bodies at an instant, interpolated between the adjacent saved states; empty: no state is near.
 Eigen::VectorXd state_at(const Result &result, double t)
 {
   if (!result.run || result.run->picture_states.empty())
@@ -161,7 +161,7 @@ Eigen::VectorXd state_at(const Result &result, double t)
   return states[after - 1] + share * (states[after] - states[after - 1]);
 }
 
-/// Puts the bodies where they are at the instant of a stress, beside the frame.
+/// Adds the bodies at the instant of a stress to the frame.
 void put_bodies(Json &show, const MachineAnimation &machine, const Eigen::VectorXd &q)
 {
   if (q.size() == 0)
@@ -172,7 +172,7 @@ void put_bodies(Json &show, const MachineAnimation &machine, const Eigen::Vector
                         {"moved", field_json(motions[i].displacement, exactness * machine.size())}};
 }
 
-/// Of the points that are drawn the one nearest to a place.
+/// The drawn point closest to a location.
 std::size_t nearest_point(const Shape &shape, const Eigen::Vector3d &place)
 {
   const auto nearer = [&](const Eigen::Vector3d &a, const Eigen::Vector3d &b)
@@ -222,7 +222,7 @@ Json shows_json(const MachineAnimation &machine, const Result &result)
   Json shows = Json::array();
   if (result.run && !result.run->picture_states.empty())
     shows.push_back(motion_json(machine, result));
-  // of the machine's size: large enough to see, small enough that walls do not cross
+  // relative to the size of the machine: large enough to see, small enough that walls do not cross
   constexpr double      mode_size  = 0.05;
   const double          size       = mode_size * machine.size();
   constexpr std::size_t most_modes = 9; // buttons of one row

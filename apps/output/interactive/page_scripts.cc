@@ -26,7 +26,7 @@ std::string script(const std::string &text)
   return "<script>" + text + "</script>\n";
 }
 
-/// With the libraries' licence, which asks to stay with them.
+/// Adds the licence of the libraries, which requires this.
 std::string library(const std::string &name, const std::string &owner, const std::string &text)
 {
   return script("/*! " + name + ", " + owner + "\n" + GESTELL_TEXT(licence) + "*/\n" + text);

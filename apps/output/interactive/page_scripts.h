@@ -6,17 +6,17 @@
 namespace gestell::apps
 {
 
-/// A library that pages carry; it is compiled into the program.
+/// A library that is embedded in pages; it is compiled into the program.
 struct PageLibrary
 {
-  std::string name, version, source; ///< source: where it is kept
+  std::string name, version, source; ///< source: its origin
 };
 
-/// Those this build has; empty: pages show pictures only.
+/// Libraries of this build; empty: pages show pictures only.
 std::vector<PageLibrary> page_libraries();
 
-/// Style and scripts at the end of a page with live charts, with a view of the machine, or both: libraries with their
-/// licence, then our own.  Empty without either, or if this build has no libraries.
+/// Style and scripts for the end of a page with live charts, a view of the machine, or both: libraries with their
+/// licence, then our own.  Empty for a page with neither, or if this build has no libraries.
 std::string page_scripts(bool charts, bool machine);
 
 } // namespace gestell::apps

@@ -9,11 +9,11 @@ namespace gestell::apps
 {
 
 /**
- * Vectors that change over time in short form: few shapes, whole numbers of 16 bits, and weights,
+ * Compressed vectors over time: few shapes, 16-bit integers, and weights,
  *
  *     u(k) = sum_r weights(k, r) shapes(r),
  *
- * the singular vectors of all instants as far as they are needed.
+ * from a truncated singular value decomposition of all instants.
  */
 struct ShortMotion
 {
@@ -24,12 +24,12 @@ struct ShortMotion
 };
 
 /// @param motion     [numbers x instants]
-/// @param tolerance  in the unit of the motion: no column is farther off, in the root of its sum of squares
+/// @param tolerance  in the unit of the motion: limit of the error of every column, as root of the sum of squares
 ShortMotion short_motion(const Eigen::MatrixXd &motion, double tolerance);
 
 /**
- * Whether straight lines between instants tell a motion u(t): no point u_k is off the line from u_{k-1} to u_{k+1},
- * taken at its time t_k, by more than the tolerance.
+ * Whether linear interpolation between instants reproduces a motion u(t): no point u_k differs by more than the
+ * tolerance from the line between u_{k-1} and u_{k+1} at its time t_k.
  *
  * @param motion     [3 points x instants] m
  * @param times      [instants] s, ascending

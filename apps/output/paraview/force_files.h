@@ -9,12 +9,12 @@
 namespace gestell::apps
 {
 
-/// What acts in picture k of the run; empty: nothing, or the forces are not known.
+/// Forces in saved state k of the run; empty: there are none, or they are not known.
 std::vector<ActingForce> forces_at(const Result &result, std::size_t k);
 
 /// forces.pvd: a point where each element acts on each body, with "force [N]" and "torque [N m]" on that body, its
 /// "body" and "element", at the times of motion.pvd.
-/// @param names  gets those of the files
+/// @param names  receives the names of the files
 void write_force_files(OwnFolder &folder, const Result &result, std::vector<std::string> &names);
 
 } // namespace gestell::apps

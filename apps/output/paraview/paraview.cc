@@ -20,13 +20,13 @@ namespace gestell::apps
 namespace
 {
 
-/// What the macro opens.
+/// Input of the ParaView macro.
 struct ViewMacro
 {
   double enlargement = 1.; ///< of displacements of the motion
   double time        = 0.; ///< [s] it begins at: the main peak
   double size        = 1.; ///< [m] of the machine
-  double speed       = 0.; ///< [m/s] largest at its begin, for arrows of a twelfth of the size; 0: none
+  double speed       = 0.; ///< [m/s] largest at its start, for arrows of a twelfth of the size; 0: none
   double force       = 0.; ///< [N] largest then, for arrows of a sixth of the size; 0: none
 };
 
@@ -113,9 +113,8 @@ if len(sys.argv) > 1 and sys.argv[-1].endswith(".png"):
     SaveScreenshot(sys.argv[-1], view, ImageResolution=[1000, 800])
 )py";
 
-/// view.py: opens motion.pvd beside it in ParaView (5.9 and later), warped, coloured, with arrows of velocities and
-/// forces; run
-/// by pvbatch with the name of a picture it writes that.
+/// view.py: opens motion.pvd in the same folder in ParaView (5.9 and later), warped, coloured, with arrows of
+/// velocities and forces; with pvbatch and the name of a picture it writes this picture.
 std::string view_macro(const ViewMacro &view)
 {
   return head + ("times = " + exact_text(view.enlargement) + "  # enlargement of displacements\nbegin = ") +
@@ -187,7 +186,7 @@ void add_names(vtkPolyData &poly, const std::vector<Shape> &shapes)
   poly.GetFieldData()->AddArray(names);
 }
 
-/// All bodies in one surface; the cells tell which is which.
+/// All bodies in one surface; cell data distinguish them.
 /// @param velocities  [m/s] of all points, in the order of the shapes; empty: unknown
 void write_mechanism(const fs::path &path, const std::vector<Shape> &shapes,
                      const std::vector<Eigen::Vector3d> &velocities = {})
@@ -293,7 +292,7 @@ void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<st
   folder.write("coupled_modes.pvd", collection.document());
 }
 
-/// For the main peak, or the begin of a motion without one.
+/// View of the main peak or, if there is none, of the start of the motion.
 ViewMacro macro_of(const Result &result)
 {
   const coupling::RunResult &run = *result.run;

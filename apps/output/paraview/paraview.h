@@ -10,25 +10,25 @@ namespace gestell::apps
 {
 
 /**
- * Writes a series of data sets for ParaView, a .pvd file and the folder of .vtp files that it names, where the result
- * has something for it.
+ * Writes a series of data sets for ParaView, a .pvd file and the folder of its .vtp files, if the result contains the
+ * data.
  *
- * @param names  gets the names of the files relative to the folder, each before it is written
- * @throws coupling::WriteFailure, std::invalid_argument as OwnFolder::claim()
+ * @param names  receives the names of the files relative to the folder, each before it is written
+ * @throws coupling::WriteFailure, std::invalid_argument as OwnFolder::claim() does
  */
 using WriteSeries = void(OwnFolder &folder, const Result &result, std::vector<std::string> &names);
 
 /**
  * frame_modes.pvd and coupled_modes.pvd (one data set per mode shape), motion.pvd with forces.pvd and view.py (frame
- * and mechanism at every saved instant, and what acts on the bodies), stress.pvd.
+ * and mechanism at every saved instant, and the forces on the bodies), stress.pvd.
  *
- * Point fields: `displacement [m]`, true to scale.  In frame_modes it is the mode shape scaled to a largest
- * displacement of a twentieth of the frame's size; the time of a data set is the number of the mode, whose frequency
- * is the field `frequency [Hz]`.
+ * Point field: `displacement [m]`, true to scale. In frame_modes it is the mode shape, scaled so that the largest
+ * displacement is a twentieth of the frame's size; the time of a data set is the number of the mode, and the field
+ * `frequency [Hz]` its frequency.
  */
 const std::vector<WriteSeries *> &paraview_series();
 
-/// A warning of what this build lacks to write them; "" if nothing.
+/// A warning with the library that this build lacks to write them; "" if none.
 std::string lacks_for_paraview();
 
 } // namespace gestell::apps

@@ -1,4 +1,4 @@
-// Takes the place of paraview.cc in a build without VTK.
+// Replaces paraview.cc in a build without VTK.
 #include "apps/output/paraview/face_surface.h"
 #include "apps/output/paraview/paraview.h"
 

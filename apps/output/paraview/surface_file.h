@@ -25,7 +25,7 @@
 namespace gestell::apps
 {
 
-/// Points and cells that stay, and the displacement that changes from instant to instant.
+/// Constant points and cells, and a displacement that changes with time.
 struct Surface
 {
   vtkNew<vtkPolyData>   poly;
@@ -62,7 +62,7 @@ struct Surface
     poly->SetPolys(cells);
   }
 
-  /// A value of several components at every point.
+  /// Adds a field of several components per point.
   template <typename Columns>
   void add_field(const char *name, const Columns &values)
   {
@@ -75,7 +75,7 @@ struct Surface
     poly->GetPointData()->AddArray(field);
   }
 
-  /// A number that holds for all of it.
+  /// Adds a number as field data of the whole surface.
   void note(const char *name, double value)
   {
     vtkNew<vtkDoubleArray> field;
@@ -97,11 +97,11 @@ struct Surface
   {
     displacement->Modified();
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->WriteToOutputStringOn(); // VTK leaves half a file where the disk is full, and does not always say so
+    writer->WriteToOutputStringOn(); // on a full disk VTK leaves a truncated file and does not always report an error
     writer->SetInputData(poly);
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
-    // Half the size of plain numbers at no cost in time; zlib would halve it again and take ten times as long.
+    // LZ4 halves the size at no cost in time; zlib would halve it again and take ten times as long.
     writer->SetCompressorTypeToLZ4();
     if (writer->Write() == 0)
       throw std::runtime_error(path.string() + ": VTK cannot make this file");
@@ -109,7 +109,7 @@ struct Surface
   }
 };
 
-/// The collection a .pvd file is: data sets with their time and part.
+/// A .pvd file: a collection of data sets with their time and part.
 class Collection
 {
 public:

@@ -1,4 +1,4 @@
-// Alone in this file, so that all else of the output can be linked and tested without a machine.
+// In a file of its own, so that the rest of the output can be linked and tested without a machine.
 #include "apps/output/values/scenery.h"
 
 namespace gestell::apps

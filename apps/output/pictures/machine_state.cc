@@ -21,7 +21,7 @@ void move_ends(const std::vector<Vector3d> &points, std::vector<Vector3d> &displ
   Vector3d middle = Vector3d::Zero();
   for (const Vector3d &x : points)
     middle += x / static_cast<double>(points.size());
-  Vector3d along = Vector3d::Zero(); // the point farthest from the middle lies at an end
+  Vector3d along = Vector3d::Zero(); // the point farthest from the middle is at an end
   for (const Vector3d &x : points)
     along = (x - middle).norm() > along.norm() ? x - middle : along;
   std::array<Vector3d, 2> sum = {Vector3d::Zero(), Vector3d::Zero()};

@@ -41,7 +41,7 @@ const coupling::Body *find(const Scenery &scenery, const std::string &name)
   return body != scenery.bodies.end() ? &*body : nullptr;
 }
 
-/// The motion of the bodies and that of the frame, q = bodies + frame.
+/// Separates the motion of the bodies from that of the frame, q = bodies + frame.
 struct Split
 {
   Eigen::VectorXd bodies, frame;
@@ -53,7 +53,7 @@ struct Split
   }
 };
 
-/// Where a rotor is and how it stands: pin direction and its perpendicular for the angle in q.
+/// Position and orientation of a rotor: pin direction and its perpendicular for the angle in q.
 struct RotorPose
 {
   Vector3d axis, pin, ahead;
@@ -81,7 +81,7 @@ struct RotorPose
   }
 };
 
-/// A slider's way along its axis, split into the ideal part and the rest with which it moves sideways.
+/// The motion of a slider along its axis (ideal part), and its lateral motion.
 struct SliderPose
 {
   Vector3d axis;
@@ -116,7 +116,7 @@ Shape rotor_shape(const Scenery &scenery, const coupling::Body &rotor, const Eig
   shape.name                  = rotor.name;
   constexpr double disc_width = 0.25; // of its radius
   add_disc(shape, centre, pose.pin, pose.axis, r, 0.5 * disc_width * r);
-  // The rib stands out on both sides of the disc, shows the angle and reaches a joint beyond the rim.
+  // The rib protrudes on both sides of the disc, shows the angle and extends to a joint beyond the rim.
   add_box(shape, centre + 0.5 * pose.reach * pose.pin, 0.5 * pose.reach * pose.pin, 0.09 * r * pose.ahead,
           disc_width * r * pose.axis);
   shape.displacement.assign(shape.points.size(), translation(rotor.marker, split.frame));

@@ -6,7 +6,7 @@
 namespace gestell::apps
 {
 
-/// The skin of a scenery's frame, displaced for the frame's coordinates p [n_frame].
+/// The skin of a scenery's frame, displaced by the frame's coordinates p [n_frame].
 Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p);
 
 } // namespace gestell::apps

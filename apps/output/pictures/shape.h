@@ -9,8 +9,8 @@
 namespace gestell::apps
 {
 
-/// A body as drawn.  Points stand where ideal kinematics puts them; what elasticity, play and the moving frame add is
-/// in `displacement`, so that bodies stay on a frame whose small displacements are drawn enlarged.
+/// A body as drawn.  `points` follow from ideal kinematics; the contributions of elasticity, clearance and the moving
+/// frame are in `displacement`, so that bodies remain attached to a frame whose small displacements are drawn enlarged.
 struct Shape
 {
   std::string                     name;
@@ -19,7 +19,7 @@ struct Shape
   std::vector<std::array<int, 3>> triangles;    ///< into points, outside counter-clockwise
 };
 
-/// Unit vector across the unit vector `axis`, as near to `wish` as may be.
+/// Unit vector normal to the unit vector `axis`, as close to `wish` as possible.
 Eigen::Vector3d across(const Eigen::Vector3d &axis, const Eigen::Vector3d &wish);
 
 /// Adds a box about `centre` with half edges a, b, c (a right-handed frame).
@@ -29,18 +29,18 @@ void add_box(Shape &shape, const Eigen::Vector3d &centre, const Eigen::Vector3d 
 /// Adds a prism: the convex outline, counter-clockwise about the unit vector n, moved from -half n to half n.
 void add_prism(Shape &shape, const std::vector<Eigen::Vector3d> &outline, const Eigen::Vector3d &half);
 
-/// Adds a disc about `centre` across `axis` with half its width; its first corner lies along e1.
+/// Adds a disc about `centre` normal to `axis`; its first corner is in direction e1.
 void add_disc(Shape &shape, const Eigen::Vector3d &centre, const Eigen::Vector3d &e1, const Eigen::Vector3d &axis,
               double radius, double half_width);
 
-/// Adds a round bar from a to b, which are apart, of so many corners.
+/// Adds a round bar from a to b with `n_corners` corners; a and b must be distinct.
 void add_bar(Shape &shape, const Eigen::Vector3d &a, const Eigen::Vector3d &b, double radius, int n_corners = 12);
 
 /// Adds a sphere of n_rings >= 2 bands from pole to pole: 2 n_rings (n_rings - 1) + 2 points.
 void add_sphere(Shape &shape, const Eigen::Vector3d &centre, double radius, int n_rings = 8);
 
-/// Adds a plate with round corners: all that lies within `radius` of the convex hull of the points, seen along the unit
-/// vector n, and along n from the lowest point to the highest and `half_width` beyond both.
+/// Adds a plate with round corners.  In the plane normal to the unit vector n it covers all points within `radius` of
+/// the convex hull of `points`; along n it extends `half_width` beyond the lowest and the highest point.
 void add_plate(Shape &shape, const std::vector<Eigen::Vector3d> &points, const Eigen::Vector3d &n, double radius,
                double half_width);
 

@@ -40,7 +40,7 @@ std::vector<std::set<Plane>> planes_of(const Skin &skin, double tolerance)
   return planes;
 }
 
-/// Number of the group of every point, numbered as they are met: points in one cell of a grid on the same planes.
+/// Group number of every point, in order of first occurrence: one group has one grid cell and the same planes.
 std::vector<int> groups_of(const Skin &skin, double edge)
 {
   using Key         = std::pair<std::array<long, 3>, std::set<Plane>>;

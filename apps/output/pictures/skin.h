@@ -21,20 +21,20 @@ struct Skin
   double largest_displacement() const;
 };
 
-/// A choice of the points of a skin, and triangles between them.
+/// A subset of the points of a skin, and triangles between them.
 struct CoarseMesh
 {
   std::vector<int>                points;    ///< of the skin
   std::vector<std::array<int, 3>> triangles; ///< into this choice
-  std::vector<int>                source;    ///< of each triangle, the one of the skin that it came from
+  std::vector<int>                source;    ///< index of the skin's triangle that each triangle came from
 };
 
-/// The skin on fewer points: those in one cell of a cubic grid of the given edge length whose faces lie in the same
-/// planes are drawn together to the one nearest to their mean, and triangles that become lines vanish.  Planes stay
-/// plane, straight edges straight, corners where they are.
+/// Coarsens a skin: points in one cell of a cubic grid (edge length `edge`) whose faces lie in the same planes are
+/// merged into the point nearest to their mean, and degenerate triangles are removed.  Planes remain plane, straight
+/// edges straight, and corners in place.
 CoarseMesh coarse_mesh(const Skin &skin, double edge);
 
-/// Edges (pairs of points) where neighbouring triangles meet at more than `degrees`, or that have one triangle only.
+/// Edges (pairs of points) where adjacent triangles meet at more than `degrees`, or that have one triangle only.
 std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees = 35.);
 
 } // namespace gestell::apps

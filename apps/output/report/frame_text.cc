@@ -22,7 +22,7 @@ std::string triple(const Eigen::Vector3d &x, double scale)
 std::string mass_line(const fem::FrameFacts &frame)
 {
   std::string           line         = "mass " + short_text(frame.whole.mass, 6) + " kg";
-  constexpr std::size_t parts_listed = 20; // what fits on a screen beside the rest
+  constexpr std::size_t parts_listed = 20; // to fit on a screen with the other lines
   for (std::size_t i = 0; i < std::min(frame.parts.size(), parts_listed); ++i)
   {
     const auto &[name, material, mass] = frame.parts[i];
@@ -74,7 +74,7 @@ const char *const static_residual_words =
 
 std::string words_above(double limit, double before, double frequency)
 {
-  const double reach = 1.02 * limit; // which may be the frequency of a mode, better known than by the model itself
+  const double reach = 1.02 * limit; // the limit may be a mode's frequency, now known more accurately
   if (!(before <= reach && frequency > reach))
     return "";
   return "above " + short_text(limit, 4) +

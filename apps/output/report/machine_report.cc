@@ -15,7 +15,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Whether bodies move so far that a second pose tells something.
+/// Whether bodies move so far that a second pose is informative.
 bool far_apart(const std::vector<Shape> &before, const std::vector<Shape> &after, double machine_size)
 {
   double way = 0.;

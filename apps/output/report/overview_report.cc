@@ -39,7 +39,7 @@ std::string quantity_text(double value, const std::string &si_unit)
   return short_text(value * unit.factor, 4) + (unit.unit.empty() ? "" : " " + unit.unit);
 }
 
-/// Of the first force, the first moment, ... that the scene names, in its order.
+/// Peaks of the first force, the first moment, ... in the order of the scene.
 std::vector<Peak> main_peaks(const coupling::RunResult &run)
 {
   std::vector<Peak> peaks;

@@ -7,7 +7,7 @@
 namespace gestell::apps
 {
 
-/// What was computed in two sentences, and the numbers that matter most.
+/// The computation in two sentences, and its most important numbers.
 std::string overview(const Result &result);
 
 } // namespace gestell::apps

@@ -24,7 +24,7 @@ std::string with_unit(const std::string &name, const std::string &unit)
   return unit.empty() ? name : name + " [" + unit + "]";
 }
 
-/// The axis with room about the values; of those that are all but one, a thousandth of it.
+/// The axis with a margin around the values; its span is at least a thousandth of the largest value.
 ChartAxis axis_about(const std::string &label, double low, double high)
 {
   // span of values, of their size: rounding of a constant value fills no chart
@@ -74,7 +74,7 @@ double apart(const std::vector<double> &a, const std::vector<double> &b)
   return sum;
 }
 
-/// Begins with the richest spectrum, goes on with those that are farthest from all that were taken.
+/// Starts with the signal of the richest spectrum, then adds those most different from all selected ones.
 std::vector<std::size_t> most_different(const std::vector<SignalOrbit> &signals)
 {
   std::vector<std::vector<double>> shares;
@@ -85,7 +85,7 @@ std::vector<std::size_t> most_different(const std::vector<SignalOrbit> &signals)
     if (!shares.back().empty())
       left.push_back(shares.size() - 1);
   }
-  constexpr std::size_t most_barred = 4; // signals whose bars of one harmonic are told apart
+  constexpr std::size_t most_barred = 4; // signals whose bars of one harmonic can be distinguished
   const auto            distance    = [&](std::size_t i)
   {
     if (taken.empty())
@@ -106,7 +106,7 @@ std::vector<std::size_t> most_different(const std::vector<SignalOrbit> &signals)
   return taken;
 }
 
-/// A value of the solutions over the parameter, stable ones alone or the others; branches are not joined.
+/// A value of the solutions over the parameter, for stable or unstable ones; branches are not connected.
 Curve branch_curve(const PeriodicResult &result, bool stable, const std::function<double(const PeriodicEntry &)> &value)
 {
   Curve curve;
@@ -301,7 +301,7 @@ Chart basins_chart(const BasinMap &map)
       for (end = i + 1; end < plane.points && basins.motion(end, j) == motion; ++end)
       {
       }
-      constexpr double cell_overlap = 0.05; // of a cell, over which the next one is drawn: no gaps
+      constexpr double cell_overlap = 0.05; // share of a cell under the next one: no gaps
       if (motion > 0)
         chart.panels[0].tiles.push_back({plane.x_begin + i * width, plane.x_begin + (end + cell_overlap) * width,
                                          plane.y_begin + j * height, plane.y_begin + (j + 1 + cell_overlap) * height,

@@ -8,8 +8,8 @@
 namespace gestell::apps
 {
 
-/// Section of the periodic motions: solutions with their stability, multipliers beside the unit circle, harmonics, and
-/// the branches along a parameter with their special points.  Empty: there are none.
+/// Section on the periodic solutions with stability, multipliers relative to the unit circle, harmonics, and the
+/// branches along a parameter with their special points.  Empty if there are none.
 std::string periodic_section(const Result &result, Pictures &pictures);
 
 } // namespace gestell::apps

@@ -119,7 +119,7 @@ std::string events_section(const Result &result)
                      table.scrolled_html() + "</div>\n");
 }
 
-/// What the residual of the balance says, and what it does not.
+/// Meaning and limits of the residual of the energy balance.
 std::string energy_statement(const coupling::EnergySummary &energy, bool has_frame)
 {
   return "<p class=\"lead\">At no instant of the run did input, storage and dissipation disagree by more than "
@@ -153,7 +153,7 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
   return section("energy", "Energy balance", html);
 }
 
-/// Says where the frequencies begin that a reduced frame is not made for.
+/// Marks the frequencies above the limit of a reduced frame.
 /// @param limit  [Hz]; nan: none
 std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
 {
@@ -195,7 +195,7 @@ std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
   return table.html() + (refined ? "<p>" + std::string(refined_words) + "</p>\n" : "");
 }
 
-/// Where the energy of each mode lies, in words.
+/// Table of the energy of each mode by parts.
 std::string energy_shares_table(const Result &result)
 {
   if (!result.energy_shares)
@@ -247,7 +247,7 @@ std::string modes_section(const Result &result, bool has_view, Pictures &picture
   return section("modes", "Natural frequencies and modes", html);
 }
 
-/// What the method makes of each mode, the lowest first; modes above them follow the motion of the drives only.
+/// Numerical damping and period error of each mode, the lowest first; modes above only follow the drives.
 std::string accuracy_table(const coupling::RunResult &run)
 {
   if (run.accuracy.empty())

@@ -17,9 +17,9 @@ struct Report
 };
 
 /**
- * One self-contained page without references to anything outside it: warnings, the machine, the answer (peaks with
- * their times), histories of forces and motion, events, the energy balance as a statement of the error, modes, model
- * and work.  What a result does not have is left out.
+ * One self-contained page without external references: warnings, the machine, the peaks with their times, histories of
+ * forces and motion, events, the energy balance as a measure of the error, modes, model and work.  Sections without
+ * data are omitted.
  */
 Report make_report(const Result &result);
 

@@ -20,7 +20,7 @@ struct PartHtml
   std::string operator()(const HtmlTable &table) const
   {
     const std::string html             = table.is_empty() ? "" : table.html();
-    constexpr int     rows_of_a_screen = 30; // of a table that is not scrolled: 900 pixels, the height of a screen
+    constexpr int     rows_of_a_screen = 30; // largest table without scrolling: 900 pixels, a screen
     return std::count(html.begin(), html.end(), '\n') > rows_of_a_screen ? table.scrolled_html()
                                                                          : html; // a row is a line
   }

@@ -13,33 +13,33 @@ namespace gestell::apps
 
 struct Result;
 
-/// What is read of an answer: sentences, tables and charts in their order.  A terminal has no charts.
+/// Part of an answer for people: sentences, tables and charts in their order.  A terminal shows no charts.
 struct Section
 {
-  enum class Place ///< among those of the report
+  enum class Place ///< position among the sections of the report
   {
     first,
-    course,     ///< before the other results: what the run went through
-    results,    ///< behind the peaks
-    history,    ///< behind the charts over time
+    course,     ///< before the other results: the events of the run
+    results,    ///< after the peaks
+    history,    ///< after the charts over time
     frequencies ///< before the modes
   };
   struct Sentences
   {
     std::string text;         ///< not escaped
-    bool        page = false; ///< of its charts: for the page alone
+    bool        page = false; ///< only for the page: the text refers to its charts
     bool        soft = false;
   };
   struct Drawing
   {
-    std::string name; ///< of its file, without ending
+    std::string name; ///< name of its file, without extension
     Chart       chart;
     ChartLink   link = ChartLink::none;
     enum class Shown
     {
-      live, ///< to zoom and read
+      live, ///< interactive
       picture,
-      named ///< live, without a copy for paper, where a line names its file
+      named ///< interactive, without a copy for print, where a line names the file
     } shown = Shown::live;
   };
   using Picture = Pictures::value_type;
@@ -49,16 +49,16 @@ struct Section
   };
   using Part = std::variant<Sentences, HtmlTable, PageTable, Drawing, Picture>;
 
-  std::string       id, title, link; ///< link: its name in the contents of the page
+  std::string       id, title, link; ///< link: its name in the table of contents
   Place             place = Place::results;
-  bool              page  = false; ///< for the page alone
+  bool              page  = false; ///< only for the page
   std::vector<Part> parts{};
 };
 
-/// As a piece of a page, with its pictures; "" without parts.
+/// HTML of the section, with its pictures; "" if it has no parts.
 std::string section_html(const Section &section, Pictures &pictures);
 
-/// For a terminal, of all answers: titles, sentences and tables.
+/// Text of all answers for a terminal: titles, sentences and tables.
 std::string answers_text(const Result &result);
 
 } // namespace gestell::apps

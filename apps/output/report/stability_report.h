@@ -11,15 +11,15 @@
 namespace gestell::apps
 {
 
-/// A method laid over the modes of a scene at its step.
+/// Stability check of a method with the modes and the step of a scene.
 struct MethodVerdict
 {
   std::string method;
-  int         growing         = 0;     ///< modes that grow
-  bool        only_closed     = false; ///< those of closed contacts under exact propagation: a run warns, and goes on
-  double      growth          = 1.;    ///< of the worst, per step
-  double      worst_hz        = 0.;
-  double      step_that_works = 0.;      ///< [s] if any mode grows: the largest below; 0: none
+  int         growing              = 0;     ///< number of unstable modes
+  bool        only_closed          = false; ///< exact propagation with closed contacts: the run only prints a warning
+  double      growth               = 1.;    ///< growth factor of the worst mode per step
+  double      worst_hz             = 0.;
+  double      step_that_works      = 0.; ///< [s] largest smaller step at which no mode grows; 0: none
   double      lowest_period_error  = 0.; ///< of the lowest mode of the frame
   double      highest_period_error = 0.; ///< of its highest
 };
@@ -43,7 +43,7 @@ void describe(Visitor &v, const MethodVerdict &x)
   v("highest_period_error", x.highest_period_error, "1", "of its highest mode");
 }
 
-/// What `gestell stability` found.
+/// Result of `gestell stability`.
 struct StabilityStudy
 {
   std::string                                           title, version;
@@ -69,10 +69,10 @@ void describe(Visitor &v, const StabilityStudy &x)
   v("notes", x.notes, "", "texts");
 }
 
-/// One self-contained page: the scene's modes, other methods at its step, maps, unstable intervals.
+/// One self-contained page: the scene's modes, other methods at its step, stability maps, unstable intervals.
 std::string stability_page(const StabilityStudy &study);
 
-/// The scene's part for a terminal; at most 40 modes, those that grow always.
+/// The scene's part for a terminal: at most 40 modes, always including those that grow.
 std::string stability_text(const StabilityStudy &study);
 
 } // namespace gestell::apps

@@ -7,7 +7,7 @@
 namespace gestell::apps
 {
 
-/// Event log, modes in the extremes of forces, loads against the periods, play by its describing function.
+/// Event log, modes in the extremes of forces, load durations relative to mode periods, clearances.
 std::string story_section(const Result &result);
 
 } // namespace gestell::apps

@@ -35,7 +35,7 @@ std::string table_html(const StressResult &stress, const DisplayUnit &unit)
   return table.html();
 }
 
-/// What the numbers are, and what they are not.
+/// Meaning and limits of the stresses.
 std::string statement(const StressResult &stress)
 {
   std::string html =

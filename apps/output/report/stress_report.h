@@ -7,8 +7,8 @@
 namespace gestell::apps
 {
 
-/// Stresses for the page: table of the largest and, with a view of the machine, a picture of each instant; "" if there
-/// are none.
+/// Stresses for the page: table of the largest and, on a page with a view, a picture of each instant; "" if there are
+/// none.
 std::string stress_section(const Result &result, bool has_view);
 
 } // namespace gestell::apps

@@ -3,7 +3,7 @@
 namespace gestell::apps
 {
 
-/// What draws chart.html from its table of runs, `work`.
+/// Script that draws chart.html from its table of runs, `work`.
 extern const char *const work_precision_script;
 extern const char *const work_precision_style;
 

@@ -15,7 +15,7 @@ namespace
 std::string words(const std::vector<std::string> &names, const Eigen::MatrixXd &shares, std::size_t mode)
 {
   const Eigen::VectorXd own = shares.col(Eigen::Index(mode));
-  if (own.array().isNaN().all()) // or there is no spring
+  if (own.array().isNaN().all()) // or there are no springs
     return "not defined";
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), 0);

@@ -7,12 +7,12 @@
 namespace gestell::apps
 {
 
-/// What tables for readers show as 0: a value below 1e-9 of the largest of its unit, which is what rounding leaves of
-/// such sums.  Files keep it.
+/// Values that tables for people show as 0: those below 1e-9 of the largest value of the same unit, the size of
+/// rounding errors in such sums.  Files contain them unchanged.
 class Noise
 {
 public:
-  /// Notes that a table has such a value.
+  /// Updates the largest value of this unit.
   void see(const std::string &unit, double value);
 
   double without(const std::string &unit, double value) const;
@@ -21,7 +21,7 @@ private:
   std::map<std::string, double> largest_; ///< by unit
 };
 
-/// Of signals with `unit`, `min` and `max`.
+/// Noise of signals with `unit`, `min` and `max`.
 template <typename Signals>
 Noise noise_of(const Signals &signals)
 {

@@ -22,7 +22,7 @@ coupling::Finding of_the_scene(const std::string &warning)
   return {coupling::Severity::warning, of_magnitude ? "magnitude" : place.empty() ? "" : "scene", place, warning};
 }
 
-/// Why a run came to an early end, as the check that knows it tells.
+/// Reason for an early end of a run, from the responsible check.
 coupling::Finding early_end(const coupling::RunResult &run)
 {
   return {coupling::Severity::error, run.end_id.empty() ? "stopped-early" : run.end_id, run.end_place,

@@ -8,10 +8,10 @@
 namespace gestell::apps
 {
 
-/// Whether the run ended early by a switch of the scene that is to end it.
+/// Whether a switch of the scene whose command is to end the run ended it early.
 bool is_wanted_end(const coupling::RunResult &run);
 
-/// history.csv: one row per output instant, header "name [unit]"; empty: the run has no columns.
+/// history.csv: one row per output instant, header "name [unit]"; empty if the run has no columns.
 CsvTable history_csv(const coupling::RunResult &run);
 
 } // namespace gestell::apps

@@ -7,10 +7,10 @@
 namespace gestell::apps
 {
 
-/// Bytes as text of RFC 4648, section 4.
+/// Base64 of bytes (RFC 4648, section 4).
 std::string base64(const std::string &bytes);
 
-/// Numbers in the byte order of the machine, which for every browser of today is little-endian.
+/// Base64 of numbers in the byte order of the machine, which is little-endian for every current browser.
 std::string base64(const std::vector<float> &numbers);
 std::string base64(const std::vector<std::int16_t> &numbers);
 std::string base64(const std::vector<std::uint8_t> &numbers);

@@ -5,8 +5,8 @@
 namespace gestell::apps
 {
 
-/// How a value differs from another in magnitude, the same words for thrust and pull: "9.1 % larger" of -120 beside
-/// -110, "the same", "of the other sign"; empty where one is no number, and beside zero.
+/// Difference between two values in magnitude, the same wording for either sign: "9.1 % larger" for -120 compared with
+/// -110, "the same", "of the other sign"; empty if one is not a number or `there` is zero.
 std::string change_text(double here, double there);
 
 } // namespace gestell::apps

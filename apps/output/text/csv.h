@@ -10,18 +10,18 @@
 namespace gestell::apps
 {
 
-/// A field of a row (RFC 4180): in quotes where it holds a separator, a quote or a line end, its quotes doubled.
+/// A field of a row (RFC 4180): quoted if it contains a separator, a quote or a line end, with its quotes doubled.
 std::string csv_field(const std::string &text);
 
-/// A table as a file holds it: a line of heads, then one line per row.
+/// Text of a CSV file: a header line, then one line per row.
 class CsvTable
 {
 public:
-  CsvTable() = default; ///< no file
+  CsvTable() = default; ///< an empty file
   explicit CsvTable(const std::vector<std::string> &heads) : columns_(heads.size()) { add(heads); }
 
-  /// A field is a number, in full precision, a truth, 1 or 0, a text, a list of fields, a std::optional of these, empty
-  /// where it holds nothing, or a std::variant.
+  /// A field is a number (in full precision), a boolean (1 or 0), a string, a list of fields, a std::variant, or a
+  /// std::optional of these (empty: an empty field).
   template <class... Fields>
   void add(const Fields &...fields)
   {
@@ -29,10 +29,10 @@ public:
     if (!text_.empty())
       text_.back() = '\n';
   }
-  /// Rows of numbers, one after the other; what does not fill a row is left out.
+  /// Rows of numbers, one after the other; an incomplete last row is dropped.
   void add_rows(const std::vector<double> &numbers);
 
-  operator std::string() const & { return text_; } ///< "" without heads
+  operator std::string() const & { return text_; } ///< "" without column heads
   operator std::string() && { return std::move(text_); }
 
 private:
@@ -65,10 +65,10 @@ private:
   std::size_t columns_ = 0;
 };
 
-/// Heads of columns, "F_P [N]".
+/// Column heads, "F_P [N]".
 std::vector<std::string> heads_of(const std::vector<std::string> &names, const std::vector<std::string> &units);
 
-/// Fields of numbers; nan, which is unknown, becomes an empty field.
+/// Optionals of numbers; nan (unknown) becomes an empty field.
 std::vector<std::optional<double>> unless_nan(const std::vector<double> &numbers);
 
 } // namespace gestell::apps

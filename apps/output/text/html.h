@@ -6,27 +6,27 @@
 namespace gestell::apps
 {
 
-/// Pieces of a page; texts are HTML already.
+/// Parts of a page; their texts are HTML already.
 std::string section(const std::string &id, const std::string &title, const std::string &content); ///< "" if empty
 std::string figure(const std::string &svg, const std::string &caption = "");
 
-/// Notes as a box that is seen; "" if there are none.  They are escaped.
+/// Notes in a highlighted box; "" if there are none.  Their text is escaped.
 std::string note_box(const std::vector<std::string> &notes, const std::string &heading = "");
 
-/// A page of its own, without references to anything outside it; title and lead are escaped.
+/// A stand-alone page without external references; title and lead are escaped.
 struct Page
 {
-  std::string title, lead; ///< the lead stands below the title; empty: none
+  std::string title, lead; ///< the lead is printed below the title; empty: none
   std::string body, footer;
-  std::string more_style{}; ///< beside that of all pages
-  std::string scripts{};    ///< elements at its end
+  std::string more_style{}; ///< in addition to the style of all pages
+  std::string scripts{};    ///< elements at the end of the page
 };
 std::string page_html(const Page &page);
 
-/// JSON as it may stand within a script element, whatever names it holds.
+/// JSON that is safe inside a script element, whatever names it contains.
 std::string inside_script(std::string json);
 
-/// A table to be read; its cells are escaped.
+/// A table for people; its cells are escaped.
 class HtmlTable
 {
 public:
@@ -40,16 +40,16 @@ public:
     std::string link{}; ///< relative to the page; empty: none
   };
 
-  /// @param titles  of the columns, in HTML; "#f [Hz]": of one with numbers
+  /// @param titles  of the columns, in HTML; "#f [Hz]": a column of numbers
   explicit HtmlTable(const std::vector<std::string> &titles);
 
   void add(const std::vector<Cell> &row);
   void add_note(const std::string &text); ///< a row over all columns
   bool is_empty() const { return rows_.empty(); }
 
-  std::string html() const { return in_box("wide"); }            ///< scrolled sideways where it is too wide
-  std::string scrolled_html() const { return in_box("scroll"); } ///< in a box that long tables are scrolled in
-  std::string terminal() const;                                  ///< the same in columns
+  std::string html() const { return in_box("wide"); }            ///< in a box that scrolls sideways if necessary
+  std::string scrolled_html() const { return in_box("scroll"); } ///< in a box that scrolls long tables
+  std::string terminal() const;                                  ///< the table as text in columns
 
 private:
   std::string in_box(const std::string &kind) const;
@@ -59,7 +59,7 @@ private:
   std::vector<std::vector<Cell>> rows_; ///< a single cell of several columns: a note
 };
 
-/// A cell that stands out where `condition` holds.
+/// A cell that is highlighted if `condition` is true.
 HtmlTable::Cell peak(HtmlTable::Cell cell, bool condition = true);
 
 } // namespace gestell::apps

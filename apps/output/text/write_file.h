@@ -6,7 +6,7 @@
 namespace gestell::apps
 {
 
-/// Makes a file that is whole or not there.  @throws std::runtime_error with path and reason.
+/// Writes a file that appears complete or not at all.  @throws std::runtime_error with path and reason.
 void write_file(const std::filesystem::path &path, const std::string &content);
 
 } // namespace gestell::apps

@@ -12,19 +12,19 @@
 namespace gestell::apps
 {
 
-/// Modes along a coordinate, and what excites them there.
+/// Modes along a coordinate, and their excitation there.
 struct AlongResult
 {
   coupling::ModesAlong                modes;
   coupling::GeometricStiffness        geometric = coupling::GeometricStiffness::included;
-  std::string                         fixed;       ///< coordinates at rest, for people; may be empty
+  std::string                         fixed;       ///< coordinates locked at rest, for people; may be empty
   double                              speed  = 0.; ///< [rad/s] of the excitation; 0: unknown
   int                                 orders = 10; ///< highest multiple of the speed examined
   double                              band   = 0.05;
   std::vector<coupling::OrderMeeting> meetings;
 };
 
-/// A mode followed over the positions.
+/// A mode tracked over the positions.
 struct LineRow
 {
   LineExtremes extremes{};

@@ -13,15 +13,15 @@ struct SchemaMembers;
 struct Result;
 struct Section;
 
-/// Numbers too many for summary.json, which Python gets as an array.
+/// An array too large for summary.json, which Python gets as an array.
 struct NamedArray
 {
-  std::vector<std::string>          name; ///< a word, or the words of a tuple
+  std::vector<std::string>          name; ///< a word, or the elements of a tuple
   std::vector<std::complex<double>> values;
   bool                              real = false;
 };
 
-/// What an analysis found, as a result carries it: the writers of results know nothing else of it.
+/// Result of an analysis, as a Result stores it: the writers of results know only this interface.
 class Answer
 {
 public:
@@ -31,16 +31,16 @@ public:
   virtual void describe(JsonMembers &v) const   = 0;
   virtual void describe(SchemaMembers &v) const = 0;
 
-  /// What is read of it, on the page of the report and in a terminal.
+  /// Sections for people, on the page of the report and in a terminal.
   virtual std::vector<Section> sections(const Result &result) const = 0;
-  /// "Frequency responses", which the first sentence of a report says were computed; empty: of a run.
+  /// "Frequency responses": subject of the report's first sentence, "... were computed"; empty: the subject is the run.
   virtual std::string             subject() const { return ""; }
   virtual std::vector<NamedArray> arrays() const { return {}; }
 };
 
 using Answers = std::vector<std::shared_ptr<const Answer>>;
 
-/// The value of an answer.
+/// An answer with a value.
 template <class Value>
 class AnswerWith : public Answer
 {
@@ -50,7 +50,7 @@ public:
   const Value value;
 };
 
-/// Null: there is no answer of this kind.
+/// The answer of this type; null if there is none.
 template <class Value>
 const Value *answer_in(const Answers &answers)
 {

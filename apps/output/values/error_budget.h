@@ -8,22 +8,22 @@
 namespace gestell::apps
 {
 
-/// Share of one part of the model in the error of an output.
+/// Contribution of one part of the model to the error of an output.
 struct BudgetPart
 {
-  std::optional<double> error;  ///< absolute, in the unit of the output; none: not known
-  std::string           reason; ///< why it is not known, or what the number rests on
+  std::optional<double> error;  ///< absolute, in the unit of the output; none: unknown
+  std::string           reason; ///< why it is unknown, or on which assumption the number is based
 };
 
-/// An output of a run with its error, by what causes it.
+/// An output of a run with its error, split by cause.
 struct BudgetEntry
 {
   std::string                              output; ///< "F_P.max", "modes.2"
   std::string                              unit;
   double                                   value = 0.;
   BudgetPart                               mesh, reduction, time;
-  std::optional<double>                    sides;   ///< of the mesh's error what straight sides leave; none: not known
-  std::optional<double>                    total;   ///< sum of the three; none where one is not known
+  std::optional<double>                    sides;   ///< mesh error caused by straight element sides; none: unknown
+  std::optional<double>                    total;   ///< sum of the three; none if one of them is unknown
   std::optional<std::pair<double, double>> bracket; ///< smallest and largest value of all models computed
 };
 
@@ -51,12 +51,12 @@ void describe(Visitor &v, const BudgetEntry &x)
     "", "why an error is not known, or what it rests on");
 }
 
-/// Errors of chosen outputs, summed from mesh, reduction and integration.
+/// Errors of chosen outputs, as sums of mesh, reduction and integration errors.
 struct ErrorBudget
 {
   std::vector<BudgetEntry> entries;
   double                   run_cpu_s = 0.; ///< of the run itself
-  /// What each part cost to find out.
+  /// CPU time [s] spent to estimate each part.
   double mesh_cpu_s = 0., reduction_cpu_s = 0., time_cpu_s = 0.;
 
   std::vector<std::pair<std::string, double>> cpu_s() const

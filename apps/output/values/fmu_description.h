@@ -7,12 +7,12 @@
 namespace gestell::apps
 {
 
-/// A scalar of a machine that other programs set or read, in SI.
+/// A scalar of a machine that other programs set or read, in SI units.
 struct FmuVariable
 {
-  std::string        name, unit; ///< unit empty: a plain number, or one of no known dimension
-  double             start = 0.; ///< of outputs nothing
-  std::array<int, 4> base{};     ///< exponents of kg, m, s, rad that the unit is made of
+  std::string        name, unit; ///< unit empty: a plain number, or one of unknown dimension
+  double             start = 0.; ///< unused for outputs
+  std::array<int, 4> base{};     ///< exponents of kg, m, s, rad of the unit
 };
 
 /// Value references count parameters, then inputs, then outputs, from 0.
@@ -29,7 +29,7 @@ struct FmuDescription
   std::string  name, description, identifier, guid, version;
   FmuInterface variables;
   double       begin = 0., end = 0.; ///< [s] of the scene's run
-  double       step = 0.;            ///< [s] of communication, proposed
+  double       step = 0.;            ///< [s] of communication, as a proposal
 };
 
 } // namespace gestell::apps

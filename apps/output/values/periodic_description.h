@@ -10,7 +10,7 @@
 namespace gestell::apps
 {
 
-/// A motion with what the whole result says of it.
+/// A solution with the fields that depend on the whole result.
 struct DescribedMotion
 {
   const PeriodicResult *result = nullptr;
@@ -64,7 +64,7 @@ void describe(Visitor &v, const BackbonePoint &x)
   v("amplitudes", x.amplitudes, "", "first harmonic of each signal");
 }
 
-/// An axis of the plane of starts.
+/// An axis of the plane of initial states.
 struct PlaneAxis
 {
   std::string name{};

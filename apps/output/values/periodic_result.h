@@ -12,7 +12,7 @@
 namespace gestell::apps
 {
 
-/// A signal over one period: mean + sum_k amplitude_k cos(k Omega t + phase_k), Omega that of the drive.
+/// A signal over one period: mean + sum_k amplitude_k cos(k Omega t + phase_k), with the drive's frequency Omega.
 struct SignalOrbit
 {
   std::string         name, unit;
@@ -20,36 +20,36 @@ struct SignalOrbit
   std::vector<double> amplitude, phase; ///< of harmonic k + 1 of the drive; [rad]
 };
 
-/// A periodic motion with its signals.
+/// A periodic solution with its signals.
 struct PeriodicEntry
 {
   coupling::PeriodicSolution solution;
   int                        branch    = 1;
-  double                     parameter = 0.; ///< where one is followed
+  double                     parameter = 0.; ///< value of the continuation parameter, if there is one
   std::vector<SignalOrbit>   signals;
   std::vector<double>        rows; ///< of orbit_<solution>.csv: t, every signal; row major
 };
 
-/// A coordinate of the machine, by the motion that has this name: motion = sign * coordinate.
+/// A coordinate of the machine in terms of the motion that has this name: motion = sign * coordinate.
 struct NamedCoordinate
 {
   std::string name;
   double      sign;
 };
 
-/// A place on a branch where motions begin, end or change their stability.
+/// A point on a branch where solutions begin, end or change their stability.
 struct SpecialPoint
 {
   std::string kind; ///< fold, period doubling, Neimark-Sacker, branch, grazing
   double      parameter = 0., period = 0.;
-  int         solution = 0; ///< number of the nearest one, from 1
+  int         solution = 0; ///< number of the nearest solution, from 1
 };
 
-/// A second way to the same motion.
+/// Comparison with the same solution computed by a second method.
 struct PeriodicCheck
 {
   std::string                                 method;
-  std::vector<std::pair<std::string, double>> distances; ///< by signal: largest difference over its amplitude
+  std::vector<std::pair<std::string, double>> distances; ///< by signal: largest difference relative to the amplitude
   std::string                                 failure;   ///< empty: none
 };
 
@@ -61,45 +61,45 @@ struct PhasePlane
     int                      solution = 0; ///< its number, from 1; 0: points of a section
     bool                     stable   = true;
     std::vector<double>      x, rate;
-    std::vector<std::size_t> begins; ///< where a period of the excitation begins
+    std::vector<std::size_t> begins; ///< indices at which a period of the excitation begins
   };
 
-  std::string        name, unit; ///< of the signal; the rate's is the unit per second
+  std::string        name, unit; ///< of the signal; the unit of the rate is this unit per second
   std::vector<Curve> curves;
 };
 
-/// What a motion does in the long run, with its Poincare section.
+/// Long-term behaviour of a motion, with its Poincare section.
 struct LongRun
 {
   coupling::Recurrence     motion;
   std::vector<std::string> columns; ///< of the signals, "name [unit]"
-  std::vector<double>      rows;    ///< signals at the begins of the periods; row major
-  std::vector<PhasePlane>  planes;  ///< the section in a few signals; none where it is a point
+  std::vector<double>      rows;    ///< signals at the start of each period; row major
+  std::vector<PhasePlane>  planes;  ///< the section in the planes of a few signals; none if it is a point
 };
 
-/// Which start settles to which motion; motions by their numbers.
+/// Which initial state settles to which solution; solutions by their numbers.
 struct BasinMap
 {
-  std::string      x_name, y_name; ///< of coordinates, with ' of rates
+  std::string      x_name, y_name; ///< of coordinates; a rate ends with '
   coupling::Basins basins;
 };
 
-/// What `gestell periodic` finds.
+/// Result of `gestell periodic`.
 struct PeriodicResult
 {
-  std::string                  method, reason;            ///< why this method
-  std::string                  parameter, parameter_unit; ///< that is followed; empty: none
+  std::string                  method, reason;            ///< reason: of the choice of this method
+  std::string                  parameter, parameter_unit; ///< continuation parameter; empty: none
   std::vector<NamedCoordinate> coordinates;               ///< of the machine
   std::vector<PeriodicEntry>   entries;
   std::vector<SpecialPoint>    special_points;
   std::vector<PeriodicCheck>   checks;
-  std::vector<PeriodicEntry>   backbone; ///< of free vibration, where the parameter is a load's frequency
-  std::vector<PhasePlane>      planes;   ///< the first solutions in some signals whose rates are known exactly
+  std::vector<PeriodicEntry>   backbone; ///< free vibration, if the parameter is a load's frequency
+  std::vector<PhasePlane>      planes;   ///< the first solutions, in some signals whose rates are known exactly
   std::optional<LongRun>       long_run;
   std::optional<BasinMap>      basins;
   coupling::PeriodicWork       work;
   std::vector<std::string>     notes;   ///< of branches
-  std::string                  failure; ///< not empty: why it ended early
+  std::string                  failure; ///< not empty: reason for an early end
   bool                         interrupted = false;
 };
 

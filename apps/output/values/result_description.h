@@ -70,7 +70,7 @@ void describe(Visitor &v, const PeakState &x)
     "to the turning point beside it; null: there is none");
 }
 
-/// Shares of the energies of a coupled mode.
+/// Energy shares of a coupled mode.
 struct ModeEnergies
 {
   std::vector<std::pair<std::string, double>> strain{}, kinetic{};
@@ -91,11 +91,11 @@ inline std::vector<ModeEnergies> mode_energies(const coupling::EnergyShares &sha
   return modes;
 }
 
-/// How a run went.
+/// Outcome of a run.
 struct Outcome
 {
   std::string method{};
-  double      begin = 0., end = 0.; ///< [s] of the rows
+  double      begin = 0., end = 0.; ///< [s] of the output rows
   std::size_t events_located = 0;
   bool        complete = false, interrupted = false;
   std::string failure{};
@@ -127,7 +127,7 @@ inline Outcome outcome_of(const coupling::RunResult &run, const Request &request
 template <class Visitor>
 void describe(Visitor &v, const Result &x)
 {
-  // A result without a run has no signals, but all members, so that readers need not ask.
+  // A result without a run has no signals, but has all members, so that readers need no case distinction.
   const coupling::RunResult run         = x.run.value_or(coupling::RunResult());
   const auto                frequencies = [](const std::vector<coupling::Mode> &modes, double coupling::Mode::*of)
   {

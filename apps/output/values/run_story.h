@@ -8,15 +8,15 @@
 namespace gestell::apps
 {
 
-/// A force that acts for a time, beside the period T of a mode.
+/// A force of finite duration, relative to the period T of a mode.
 struct LoadOnMode
 {
-  int         mode         = -1; ///< from 0 on, as the modes of the scene are numbered; -1: none of them
-  double      frequency_hz = 0.; ///< undamped, 1/T
+  int         mode         = -1;                   ///< from 0, in the order of the scene's modes; -1: none of them
+  double      frequency_hz = 0.;                   ///< undamped, 1/T
   double      duration = 0., rise = 0., fall = 0.; ///< each over T
-  double      fall_factor = 0.;                    ///< amplitude the fall leaves, over that of a sudden one
-  double      energy      = std::numeric_limits<double>::quiet_NaN(); ///< [J] that the fall leaves in the mode
-  std::string strain{};                                               ///< where its strain energy lies
+  double      fall_factor = 0.;                    ///< residual amplitude relative to that of a sudden fall
+  double      energy      = std::numeric_limits<double>::quiet_NaN(); ///< [J] in the mode after the fall
+  std::string strain{};                                               ///< elements that contain its strain energy
 };
 
 template <class Visitor>
@@ -37,15 +37,15 @@ void describe(Visitor &v, const LoadOnMode &x)
 struct LoadDuration
 {
   std::string signal, element, unit;
-  double      begin = 0., end = 0.;              ///< [s] between them it is above a hundredth of its peak
+  double      begin = 0., end = 0.;              ///< [s] interval in which it is above 1 % of its peak
   double      peak = 0., t_peak = 0.;            ///< with its sign
-  double      rise = 0., t_fall = 0., fall = 0.; ///< [s] to 0.9 of the peak; from there down, see load_duration()
-  double      row_step = 0.;                     ///< [s] largest distance of the rows these are read from
-  std::vector<LoadOnMode> modes;                 ///< of the machine as it stands where the force begins to fall
-  double                  t_modes = 0.;          ///< [s] when it stands there
-  std::string             place, unknown;        ///< "crank 160.2 deg"; why there are no modes, empty: there are
+  double      rise = 0., t_fall = 0., fall = 0.; ///< [s] time to 90 % of the peak; start and duration of the fall
+  double      row_step = 0.;                     ///< [s] largest interval between the output rows used
+  std::vector<LoadOnMode> modes;                 ///< of the machine in its configuration where the force begins to fall
+  double                  t_modes = 0.;          ///< [s] time of this configuration
+  std::string             place, unknown;        ///< "crank 160.2 deg"; why there are no modes, empty if there are
 
-  /// Whether rows are too far apart: fewer than ten over the time it acts, or fewer than four over its fall.
+  /// Whether output rows are too far apart: fewer than ten while the force acts, or fewer than four during its fall.
   bool is_coarse() const { return 10. * row_step > t_fall - begin || 4. * row_step > fall; }
 };
 
@@ -76,7 +76,7 @@ struct EventValue
   double      t = 0.; ///< [s]
   std::string object, event, signal, unit;
   double      before = 0., after = 0.;
-  double      rate = std::numeric_limits<double>::quiet_NaN(); ///< of a displacement, just before [unit/s]
+  double      rate = std::numeric_limits<double>::quiet_NaN(); ///< of a displacement, just before the event [unit/s]
   double impulse   = std::numeric_limits<double>::quiet_NaN(); ///< of a force, until the object's next event [unit s]
 };
 
@@ -95,16 +95,16 @@ void describe(Visitor &v, const EventValue &x)
     "`unit` s, of a force until the next event of its object; null: of a displacement, or rows are too far apart");
 }
 
-/// The extreme of a force, and the vibration about it.
+/// The extreme of a force, and the vibration around it.
 struct ExtremeSwing
 {
   std::string signal, unit;
   bool        largest = true;
   double      t = 0., value = 0.;
-  double      swing_hz = std::numeric_limits<double>::quiet_NaN(); ///< 0.5 over the time between its turning points
-  int         mode     = -1; ///< from 0 on, as the modes of the scene are numbered; -1: none of them
+  double      swing_hz = std::numeric_limits<double>::quiet_NaN(); ///< 0.5 / time between its turning points
+  int         mode     = -1; ///< from 0, in the order of the scene's modes; -1: none of them
   double      mode_hz = std::numeric_limits<double>::quiet_NaN(), share = mode_hz, sum = mode_hz;
-  std::string strain{}; ///< where most of its strain energy lies
+  std::string strain{}; ///< element with most of its strain energy
 };
 
 template <class Visitor>
@@ -126,16 +126,16 @@ void describe(Visitor &v, const ExtremeSwing &x)
   v("strain_energy_in", x.strain, "", "part with most strain energy of the mode");
 }
 
-/// An element with play by its describing function, beside what the run shows.
+/// An element with clearance: its describing function compared with the run.
 struct PlayEstimate
 {
   std::string element, signal, unit;     ///< of amplitude and mean: "m" or "rad"
-  double      begin = 0., end = 0.;      ///< [s] of the oscillation that is looked at
+  double      begin = 0., end = 0.;      ///< [s] of the oscillation examined
   double      amplitude = 0., mean = 0.; ///< [m] or [rad] of the element's measure
-  double      stiffness_share = 0.;      ///< equivalent over engaged stiffness
+  double      stiffness_share = 0.;      ///< equivalent stiffness divided by engaged stiffness
   double      frequency_hz = 0., seen_hz = 0., closed_hz = 0.;
   int         mode = -1;
-  std::string limits; ///< where it does not hold; empty: it does
+  std::string limits; ///< why it is not valid; empty: it is
 };
 
 template <class Visitor>
@@ -156,7 +156,7 @@ void describe(Visitor &v, const PlayEstimate &x)
   v("limits", x.limits, "", "where the estimate does not hold; empty: it does");
 }
 
-/// Facts of a run with events.
+/// Facts about a run with events.
 struct RunStory
 {
   std::vector<LoadDuration> loads;

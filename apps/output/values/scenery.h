@@ -13,7 +13,7 @@
 namespace gestell::apps
 {
 
-/// The shape of a body as its CAD file shows it, in the position the scene describes.
+/// The shape of a body from its CAD file, in the reference configuration.
 struct DrawnPart
 {
   std::string                        body;
@@ -21,21 +21,21 @@ struct DrawnPart
   std::vector<std::array<int, 3>>    triangles; ///< into points, outside counter-clockwise
 };
 
-/// What an element, joint, spring or load does to one body at an instant.
+/// Force and torque of an element, joint, spring or load on one body at an instant.
 struct ActingForce
 {
   std::string     name;         ///< of the element
-  std::string     body;         ///< on which it acts: "slide", "frame.crown", "ground"
-  Eigen::Vector3d at;           ///< [m] where, by the motion of bodies alone
-  Eigen::Vector3d displacement; ///< [m] with that of the frame, as of Shape
+  std::string     body;         ///< body on which it acts: "slide", "frame.crown", "ground"
+  Eigen::Vector3d at;           ///< [m] point of application, by the motion of bodies only
+  Eigen::Vector3d displacement; ///< [m] of this point with the frame, as in Shape
   Eigen::Vector3d force;        ///< [N] on the body
-  Eigen::Vector3d torque;       ///< [N m] on the body, about that place
+  Eigen::Vector3d torque;       ///< [N m] on the body, about this point
 };
 
-/// What can be seen of a machine: the skin of its frame, its interfaces and the bodies of its mechanism.
+/// The visible parts of a machine: the skin of its frame, its interfaces and the bodies of its mechanism.
 struct Scenery
 {
-  int n_frame = 0; ///< coordinates of the frame, the first ones of q
+  int n_frame = 0; ///< number of frame coordinates, the first ones of q
 
   std::vector<std::array<double, 3>> points;    ///< skin of the frame [m]; empty if it has none
   std::vector<std::array<int, 3>>    triangles; // into points, outside counter-clockwise
@@ -48,22 +48,22 @@ struct Scenery
   std::vector<coupling::DrawnRod>                            rods;
   std::vector<coupling::DrawnBar>                            bars;
   std::vector<coupling::DrawnPin>                            pins;
-  std::vector<DrawnPart>                                     parts; ///< bodies without one are drawn by their sizes
+  std::vector<DrawnPart>                                     parts; ///< bodies without one are drawn from their sizes
 
-  /// Forces at t [s], q, q' [n] with the forces p [n_u] on the measures of all elements, always the same ones in one
-  /// order; empty: not known.
+  /// Forces at t [s], q, q' [n] for the forces p [n_u] on the measures of all elements; always the same elements in the
+  /// same order.  Empty: not known.
   std::function<std::vector<ActingForce>(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                                          const Eigen::VectorXd &p)>
       forces;
 
   bool has_skin() const { return !points.empty(); }
 
-  /// Length [m] of the diagonal of the box around all that can be seen, as the scene describes it; 1 m if there is
+  /// Length [m] of the diagonal of the box around all visible parts in the reference configuration; 1 m if there are
   /// none.
   double size() const;
 };
 
-/// Takes the picture of a finished machine.  The skin's displacement refers to the machine, which must outlive it.
+/// Scenery of a finished machine.  The skin's displacement refers to the machine, which must outlive it.
 Scenery scenery_of(const coupling::Machine &machine);
 
 /// u = w . q
@@ -72,10 +72,10 @@ double value(const coupling::Measure &measure, const Eigen::VectorXd &q);
 /// Displacement [m] of a marker's origin for q.
 Eigen::Vector3d translation(const coupling::Marker &marker, const Eigen::VectorXd &q);
 
-/// Where [m] a place is for q, however far its body has turned.
+/// Position [m] of a point at q, also for large rotations of its body.
 Eigen::Vector3d position(const coupling::PlacedPoint &place, const Eigen::VectorXd &q);
 
-/// Where a direction e fixed to the body of a place points for q.
+/// Direction at q of a vector e that is fixed to the body of the point.
 Eigen::Vector3d direction(const coupling::PlacedPoint &place, const Eigen::Vector3d &e, const Eigen::VectorXd &q);
 
 } // namespace gestell::apps

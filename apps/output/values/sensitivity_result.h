@@ -10,12 +10,12 @@
 namespace gestell::apps
 {
 
-/// An entry of the scene by which outputs are differentiated.
+/// A scene key by which outputs are differentiated.
 struct SensitivityKey
 {
   std::string key, unit; ///< "parameters.c_P", "kg/s^2"; empty: a plain number, in SI
   double      value = 0.;
-  std::string frame{}; ///< how the frame's share is found, where the entry changes it; else empty
+  std::string frame{}; ///< method for the frame's part, if the key changes the frame; else empty
 };
 
 template <class Visitor>
@@ -27,23 +27,23 @@ void describe(Visitor &v, const SensitivityKey &x)
   v.maybe(!x.frame.empty(), "frame", x.frame, "", "how the frame's share is found");
 }
 
-/// A number of the run with its derivatives.
+/// A scalar result of the run with its derivatives.
 struct SensitivityOutput
 {
   std::string     output, unit; ///< "F_P.max", "N"
-  std::string     note;         ///< of an event what happens; or why there is no derivative
+  std::string     note;         ///< for an event its description; or why there is no derivative
   double          value = 0.;
-  Eigen::VectorXd derivative;      ///< by every key [unit / unit of the key]; nan: there is none
-  bool            is_zero = false; ///< but for rounding
+  Eigen::VectorXd derivative;      ///< with respect to every key [unit / unit of the key]; nan: there is none
+  bool            is_zero = false; ///< zero up to rounding
 
-  /// Relative change [%] of the output by 1 % more of a key; nan where the output is zero.
+  /// Relative change [%] of the output if a key increases by 1 %; nan if the output is zero.
   double percent(const SensitivityKey &key, Eigen::Index k) const
   {
     return is_zero ? std::numeric_limits<double>::quiet_NaN() : derivative[k] * key.value / value;
   }
 };
 
-/// By one key.
+/// Derivative with respect to one key.
 struct Derivative
 {
   std::string key{}, unit{};
@@ -66,13 +66,13 @@ struct OutputDerivatives
   std::vector<Derivative>  derivatives{};
 };
 
-/// Derivatives of what a run tells.
+/// Derivatives of the scalar results of a run.
 struct SensitivityResult
 {
   std::vector<SensitivityKey>    keys;
   std::vector<SensitivityOutput> outputs;
-  std::string                    failure{};                  ///< why there are none, though the run is there
-  bool                           interrupted = false;        ///< some are not known
+  std::string                    failure{};                  ///< why there are none although the run succeeded
+  bool                           interrupted = false;        ///< some are missing
   long                           steps       = 0;            ///< of the variational equations
   double                         run_cpu_s = 0., cpu_s = 0.; ///< of the run, and of all derivatives
 };

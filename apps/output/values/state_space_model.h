@@ -8,7 +8,7 @@
 namespace gestell::apps
 {
 
-/// A machine linearised at an operating point, for other programs; all in SI.
+/// A machine linearised at an operating point, for other programs; all in SI units.
 struct StateSpaceModel
 {
   std::string              scene, at; ///< "start", "equilibrium", "undeformed"

@@ -12,17 +12,17 @@
 namespace gestell::apps
 {
 
-/// Disagreement of neighbouring elements below which a stress stands; above, the mesh is too coarse there.
+/// Limit of the disagreement between adjacent elements: above it the mesh is too coarse for the stress there.
 constexpr double resolved_disagreement = 0.1;
 
-/// A point of the skin and what it bears.
+/// A point of the skin and its stress.
 struct StressPlace
 {
   Eigen::Vector3d             at;             ///< [m]
   double                      von_mises = 0.; ///< [Pa]
   coupling::PrincipalStresses principal;
   double                      disagreement = 0.; ///< see coupling::disagreement()
-  std::string                 nearby;            ///< support or interface that holds the surface there rigid, or ""
+  std::string                 nearby;            ///< support or interface that makes the surface there rigid, or ""
 };
 
 template <class Visitor>
@@ -39,12 +39,12 @@ void describe(Visitor &v, const StressPlace &x)
 /// The stresses at one instant.
 struct StressAt
 {
-  std::string                label; ///< why this instant: "largest F_P"; may be empty
+  std::string                label; ///< reason for this instant: "largest F_P"; may be empty
   double                     t = 0.;
   coupling::StressField      field;
   Eigen::Matrix3Xd           displacement; // [3 x points] m
-  std::optional<StressPlace> peak;         ///< largest away from rigid surfaces
-  std::optional<StressPlace> beside_rigid; ///< largest beside them
+  std::optional<StressPlace> peak;         ///< largest stress away from rigid surfaces
+  std::optional<StressPlace> beside_rigid; ///< largest stress next to rigid surfaces
 };
 
 template <class Visitor>
@@ -56,13 +56,13 @@ void describe(Visitor &v, const StressAt &x)
   v.maybe(x.beside_rigid.has_value(), "beside_rigid", x.beside_rigid, "", "largest stress beside them");
 }
 
-/// Stresses of a run at the skin of its frame.
+/// Stresses at the skin of the frame during a run.
 struct StressResult
 {
   std::vector<Eigen::Vector3d>    points; ///< [m]
   std::vector<std::array<int, 3>> triangles;
   std::vector<StressAt>           instants;      ///< ascending in time
-  int                             n_states = 0;  ///< among which the largest stress was looked for; 0: it was not
+  int                             n_states = 0;  ///< number of instants searched for the largest stress; 0: no search
   double                          step     = 0.; ///< [s] between them
 };
 

@@ -63,7 +63,7 @@ Key inertia_key(const std::string &about)
 namespace
 {
 
-/// Names of the carriers may be bodies declared further down, so they are looked up once all are known.
+/// A carrier may be a body declared later, so its name is resolved when all bodies are known.
 BodyRequest read_body(const SceneTable &any, const SceneTable &scene, fem::Scripts scripts)
 {
   check_thing_name(any);

@@ -5,32 +5,32 @@
 namespace gestell::apps
 {
 
-/// What a type of bodies is; its reader, help, schema and reference come from it.
+/// A type of bodies; its reader, help, schema and reference are generated from this.
 struct BodyType
 {
   std::string        name; ///< value of the key `type`
-  std::string        does; ///< one sentence
-  std::vector<Key>   keys; ///< `type` among them
+  std::string        does; ///< description in one sentence
+  std::vector<Key>   keys; ///< including `type`
   coupling::BodyKind kind;
 
   void (*add)(coupling::MachineModel &machine, const BodyRequest &body);
-  /// What keys do not fill; mass and inertia of a body with `cad` follow from that.
+  /// Reads values that are not bound to keys; mass and inertia of a body with `cad` are computed afterwards.
   void (*read)(const SceneTable &table, BodyRequest &body) = nullptr;
-  const char *carrier                                      = nullptr; ///< key that names what carries it
+  const char *carrier                                      = nullptr; ///< key that names the carrier
 };
 
 /// All types of bodies; to add one, write bodies/x.cc and its line in body_types.cc.
 const std::vector<BodyType> &body_types();
 const BodyType              &body_type(coupling::BodyKind kind);
 
-// Keys that several types have.
-Key mass_key();   ///< demanded, or with `cad` from its density
+// Keys shared by several types.
+Key mass_key();   ///< required, or with `cad` from its density
 Key centre_key(); ///< of mass
 Key drawn_size();
 Key drawn_radius(const std::string &as);
 Key inertia_key(const std::string &about);
 
-/// Reads all [body.NAME], in the order of the file, and makes them known to `names`.
+/// Reads all [body.NAME], in the order of the file, and adds them to `names`.
 std::vector<BodyRequest> read_bodies(const SceneTable &scene, Names &names, fem::Scripts scripts);
 
 } // namespace gestell::apps

@@ -22,7 +22,7 @@ std::vector<Key> unbalance_keys()
           .by_default("`position`, or where its carrier is if there is none")};
 }
 
-/// @throws the error of the table for keys without an unbalance, and an eccentric mass that turns harder than the rotor
+/// @throws the error of the table for keys without an unbalance, and for an eccentric mass with too much inertia
 std::optional<UnbalanceRequest> read_unbalance(const SceneTable &table)
 {
   if (!table.has("unbalance"))
@@ -40,7 +40,7 @@ std::optional<UnbalanceRequest> read_unbalance(const SceneTable &table)
   return unbalance;
 }
 
-/// J about the axis is that of the mass at its eccentricity and what lies about it: J >= m e^2 = U^2/m.
+/// J about the axis includes the mass at its eccentricity: J >= m e^2 = U^2/m.
 void check_unbalance(const SceneTable &table, const BodyRequest &body)
 {
   if (const double U = body.unbalance ? body.unbalance->amount : 0.; U * U > body.mass * body.inertia && body.mass > 0.)

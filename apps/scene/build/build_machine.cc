@@ -27,7 +27,7 @@ namespace
 
 using mechanism::RelativeMeasure;
 
-/// What a joint looks like: a bar, a pin; of others only the points where they hold.
+/// Adds the shape of a joint: a bar, a pin; for others only their points.
 void draw_joint(coupling::MachineModel &machine, const JointRequest &joint, JointType::Drawn drawn, const Pair &pair)
 {
   draw_places(machine, joint.from, joint.to);
@@ -41,7 +41,7 @@ void draw_joint(coupling::MachineModel &machine, const JointRequest &joint, Join
     machine.draw_pin({placed(machine, joint.from), body->axis});
 }
 
-/// What a switch compares its signal with is told in the unit of the signal.
+/// The level of a switch must have the unit of its signal.
 void check_level(const coupling::MachineModel &machine, const SwitchRequest &request, const Quantity &level,
                  const std::string &what)
 {
@@ -115,7 +115,7 @@ void attach_between(coupling::MachineModel &machine, const ElementRequest &eleme
 
 void add_switch(coupling::MachineModel &machine, const SwitchRequest &request)
 {
-  machine.add_switch(request.request); // refuses a signal that there is not, in words of its own
+  machine.add_switch(request.request); // throws for a missing signal with its own message
   check_level(machine, request, request.level, "level");
   if (request.hysteresis)
     check_level(machine, request, *request.hysteresis, "hysteresis");
@@ -143,7 +143,7 @@ coupling::Measure moved_along(const Vector3 &e, const coupling::Marker &marker, 
   return u;
 }
 
-/// Places beside a carrier that turns by any angle are carried round, which small motions are not.
+/// Points away from the axis of a carrier with large rotations move along circles, not straight lines.
 void refuse_carried_round(const coupling::MachineModel &machine, const BodyRequest &rotor, const Vector3 &arm)
 {
   for (const coupling::Body &body : machine.bodies())
@@ -157,7 +157,7 @@ void refuse_carried_round(const coupling::MachineModel &machine, const BodyReque
 
 /// Attaches the unbalance of a rotor as an element "NAME unbalance": along e_1, the first global axis across the
 /// rotor's axis a, and e_2 = a x e_1.
-/// @throws std::invalid_argument for an unbalance beside a carrier that turns by any angle
+/// @throws std::invalid_argument for an unbalance off the axis of a carrier that turns through any angle
 void attach_unbalance(coupling::MachineModel &machine, const BodyRequest &rotor, const Vector3 &gravity)
 {
   const coupling::Marker &carrier = machine.marker(rotor.carrier);
@@ -180,7 +180,7 @@ void attach_unbalance(coupling::MachineModel &machine, const BodyRequest &rotor,
       {{{machine.body(rotor.name).coordinate, 1.}}, moved_along(e_1, carrier, arm), moved_along(e_2, carrier, arm)});
 }
 
-/// Heads what the machine says against a name with the place in the scene.
+/// Adds the location in the scene to errors about a name.
 template <typename Make>
 auto placed(const std::string &place, Make make)
 {
@@ -325,7 +325,7 @@ bool is_motion_of_interface(const std::string &path)
          std::regex_match(path.substr(last + 1, 32), motion);
 }
 
-/// Of an interface, whose frame has no such motion.
+/// Refuses a motion that an interface of the frame does not have.
 void require_motion(const coupling::Signal &signal, const std::string &path)
 {
   if (signal.on_q.empty() && signal.on_v.empty() && signal.on_a.empty() && is_motion_of_interface(path))

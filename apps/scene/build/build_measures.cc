@@ -23,7 +23,7 @@ struct Built
   std::vector<coupling::Measure> measures;
 };
 
-/// Of wheels at their places as described: the radii follow from the distance of the centres.
+/// Gear mesh of wheels in the reference configuration: the radii follow from the distance of the centres.
 mechanism::RelativeMeasure mesh_of(const MeshRequest &request, const mechanism::Placement &first,
                                    const mechanism::Placement &second)
 {
@@ -57,7 +57,7 @@ std::string triple(const Vector3 &a)
   return "[" + rounded(a[0]) + ", " + rounded(a[1]) + ", " + rounded(a[2]) + "]";
 }
 
-/// "; it has ux, uy, uz", and what turns in place of a single node.
+/// "; it has ux, uy, uz", and the alternative for rotations of a single node.
 std::string motions_left(const coupling::Marker &marker, bool rotation)
 {
   std::string has;
@@ -76,7 +76,7 @@ std::invalid_argument no_motion(const MotionTerm &term, const coupling::MachineM
                                ", nor does its partner" + motions_left(machine.marker(term.marker), term.rotation));
 }
 
-/// Of places whose motion is small, so that what does not move now never will.
+/// Whether the motion of a point is linear, so that a zero gradient remains zero.
 bool is_linear(const mechanism::Placement &place)
 {
   return place.n_measures() == 0 || (!place.turns() && place.is_linear(place.n_measures() - 1));
@@ -150,7 +150,7 @@ Built<CombinedMeasure> build(coupling::MachineModel &machine, const MeasureReque
   return {CombinedMeasure(terms, x, request.function), measures};
 }
 
-/// What the measure is in the position described.
+/// Value of the measure in the reference configuration.
 double described_value(const CombinedMeasure &measure)
 {
   const double zero[CombinedMeasure::max_measures] = {};

@@ -9,19 +9,19 @@ namespace gestell::apps
 
 coupling::Measure measure_of(const MotionMeasure &motion, const coupling::MachineModel &machine);
 
-/// Of an element.  @throws std::invalid_argument if all of them are always zero, as a rotation of a single node is
+/// Measures of an element.  @throws std::invalid_argument if all are always zero, such as a node's rotation
 std::vector<coupling::Measure> measures_of(const std::vector<MotionMeasure> &motions,
                                            const coupling::MachineModel     &machine);
 
 void draw_places(coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to);
 
-/// The measures of a scene, in the machine; bodies must be there.
+/// Adds the measures of a scene to the machine, which must have its bodies.
 void add_measures(coupling::MachineModel &machine, const Scene &scene);
 
-/// A joint of one equation on a measure of its own.
+/// Adds a joint with one equation on a measure of its own.
 void add_measure_joint(coupling::MachineModel &machine, const JointRequest &joint);
 
-/// Attaches a law of one measure, and virtual coordinates, that acts on a measure of the scene.
+/// Attaches a law of one measure, with its virtual coordinates, to a measure of the scene.
 void attach_on_measure(coupling::MachineModel &machine, const ElementRequest &element);
 
 } // namespace gestell::apps

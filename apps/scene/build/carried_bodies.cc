@@ -13,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-/// The carrier if it is a body that turns by any angle about an axis of its own.
+/// The carrier if it is a body that can rotate through large angles about an own axis.
 const coupling::Body *turning_carrier(const coupling::MachineModel &machine, const std::string &name)
 {
   for (const coupling::Body &body : machine.bodies())

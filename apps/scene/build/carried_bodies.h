@@ -10,14 +10,15 @@ namespace gestell::apps
 {
 
 /**
- * Refuses a rotor or slider whose carrier turns by any angle where it would have to be carried round: its place and its
- * mass stay at the carrier's reference point, its axis keeps its direction.  On the axis of the carrier it is right.
+ * Rejects a rotor or slider away from the axis of a carrier that rotates through large angles: in the model its
+ * position and mass remain at the carrier's reference point, and its axis keeps its direction.  On the axis of the
+ * carrier this is correct.
  *
- * @throws std::invalid_argument naming both and the way out
+ * @throws std::invalid_argument with both names and the remedy
  */
 void check_carrier(const coupling::MachineModel &machine, const BodyRequest &body);
 
-/// Where a mass counts at the reference point of an interface that turns, but is described far from it.
+/// Warnings of masses that act at the reference point of a rotating interface, although they are placed far from it.
 std::vector<std::string> carried_warnings(const Scene &scene, const coupling::MachineModel &machine);
 
 } // namespace gestell::apps

@@ -55,7 +55,7 @@ std::vector<std::string> check_scene(const Scene &scene)
     check_start_names(scene, machine);
   else
   {
-    if (!coupling::has_joints(machine) || scene.start.rule == StartRule::given) // a static start needs the frame itself
+    if (!coupling::has_joints(machine) || scene.start.rule == StartRule::given) // static states need the frame itself
       modes_configuration(scene, machine);
     if (scene.start.rule == StartRule::given)
       initial_state(scene, machine);
@@ -94,7 +94,7 @@ void require_free_motion(const Scene &scene, coupling::Machine &machine, const c
     throw std::invalid_argument(scene.element_places.at(conflict.element) + ": " + conflict.words);
   coupling::LocalState local;
   local.resize(machine);
-  machine.events().follow_history(true); // which sticking_conflict() has begun: kinks have the sides of the run
+  machine.events().follow_history(true); // sticking_conflict() began it: kinks have their sides
   machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
   const coupling::LawWithoutValue none = coupling::law_without_value(machine, local);
   machine.events().follow_history(false);
@@ -175,7 +175,7 @@ std::string floating_frame(const Scene &scene)
   }
   catch (const coupling::ConvergenceFailure &)
   {
-    return ""; // check_start() tells of machines that do not move on
+    return ""; // check_start() reports machines that cannot move
   }
 }
 

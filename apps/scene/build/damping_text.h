@@ -7,7 +7,7 @@
 namespace gestell::apps
 {
 
-/// How the frame of a scene is damped, for people; empty if there is no frame.
+/// The damping of the scene's frame, for people; empty if there is no frame.
 std::string damping_text(const FrameRequest &frame);
 
 } // namespace gestell::apps

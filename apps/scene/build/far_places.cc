@@ -26,7 +26,7 @@ Eigen::Matrix3d unconstrained_directions(const JointRequest &joint)
   return Eigen::Matrix3d::Zero();
 }
 
-/// What an interface guides may act on it anywhere along the way.
+/// Directions in which an interface guides bodies, which may act on it anywhere along their way.
 Eigen::Matrix3d guided_directions(const Scene &scene, const std::string &marker)
 {
   Eigen::Matrix3d free = Eigen::Matrix3d::Zero();

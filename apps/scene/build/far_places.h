@@ -12,7 +12,7 @@
 namespace gestell::apps
 {
 
-/// What is known of an interface and its faces.
+/// Known data of an interface and its faces.
 struct PlacedFaces
 {
   coupling::FaceBox      box;
@@ -20,15 +20,15 @@ struct PlacedFaces
 };
 
 /**
- * Warnings of nodes of interfaces, points of joints and elements that lie far from the faces of their interface, which
- * a rigid lever then carries, see coupling::FaceReach.  The way along the axis of a guide and in a plane of
- * contact does not count.
+ * Warnings of interface nodes and points of joints and elements that are far from the faces of their interface and
+ * therefore connected by a long rigid lever, see coupling::FaceReach.  Distances along the axis of a guide and in a
+ * contact plane are ignored.
  *
  * @param faces  by the name of the interface.
  */
 std::vector<std::string> places_far_from_faces(const Scene &scene, const std::map<std::string, PlacedFaces> &faces);
 std::vector<std::string> places_far_from_faces(const Scene &scene, const coupling::ReducedFrame &frame);
-/// Of the frame that it has; none: no warnings.
+/// The same for the frame of the model; no warnings without a frame.
 std::vector<std::string> places_far_from_faces(const Scene &scene, const coupling::MachineModel &machine);
 
 } // namespace gestell::apps

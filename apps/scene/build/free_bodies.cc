@@ -32,7 +32,7 @@ std::set<int> coordinates_in_use(const Scene &scene, const coupling::MachineMode
   return used;
 }
 
-/// Coordinates of the body itself; its marker moves with those of a carrier, too.
+/// Whether the coordinate belongs to the body itself; the marker also moves with the carrier.
 bool is_own(int coordinate, const coupling::Body &body)
 {
   using coupling::BodyKind;
@@ -137,9 +137,9 @@ std::string free_frame(const Scene &scene, const coupling::MachineModel &machine
   const auto frees = [&](const coupling::Mode &mode)
   {
     const auto       q          = mode.shape.head(n);
-    constexpr double takes_part = 0.01; // of the kinetic energy of a motion: the rest follows it through springs
-    // Of the highest frequency of the frame or the machine: below it a frequency is zero, for eigenvalues are known to
-    // 1e-15 of the largest.
+    constexpr double takes_part = 0.01; // share of the kinetic energy of a motion: others only follow through springs
+    // Relative to the highest frequency of the frame or the machine: lower frequencies are zero, because eigenvalues
+    // have an accuracy of 1e-15 of the largest.
     constexpr double rounding = 1e-6;
     return mode.frequency_hz <= rounding * highest && mode.growth <= rounding * highest &&
            q.dot(frame->M * q) > takes_part;

@@ -10,22 +10,22 @@
 namespace gestell::apps
 {
 
-// Warnings of what is well formed and hardly meant, with its place in the scene.
+// Warnings of valid but suspicious input, with its location in the scene.
 
-/// Bodies on which nothing but their weight acts.
+/// Bodies on which only their weight acts.
 std::vector<std::string> idle_bodies(const Scene &scene, const coupling::MachineModel &machine);
 
-/// Joints that lie farther from both bodies than the machine is wide.
+/// Joints that are farther from both bodies than the size of the machine.
 std::vector<std::string> remote_joints(const Scene &scene, const coupling::MachineModel &machine);
 
-/// Whether its supports leave a frame a motion that elements would have to hold.
+/// Whether the supports of a frame leave rigid-body modes that elements would have to constrain.
 bool may_float(const coupling::ReducedFrame &frame);
 
-/// A frame that no support and no element holds, and where it can go; empty if it is held.
+/// Warning about a frame that neither supports nor elements constrain, with the directions; empty if it is constrained.
 /// @param modes  of the machine, from the lowest
 std::string free_frame(const Scene &scene, const coupling::MachineModel &machine,
                        const std::vector<coupling::Mode> &modes);
-/// The same of a scene with a [run] before its frame is made, as far as it is known then: rigid_stand_in().
+/// The same for a scene with a [run] before its frame is computed, as far as it is known then: rigid_stand_in().
 std::string floating_frame(const Scene &scene);
 
 } // namespace gestell::apps

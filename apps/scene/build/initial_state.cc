@@ -49,7 +49,7 @@ int set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::
                               "'; give a body or \"frame.NAME.uz\"");
 }
 
-/// A rigid body of which `name` tells a rotation ("top.rx") or an angular velocity ("top.wx"), and the axis.
+/// The rigid body and the axis of a rotation `name` ("top.rx") or an angular velocity ("top.wx").
 const coupling::Body *turning_body(const coupling::Machine &machine, const std::string &name, char letter, int &axis)
 {
   const auto dot = name.rfind('.');
@@ -122,7 +122,7 @@ coupling::InitialState assembled(const Scene &scene, coupling::Machine &machine,
   }
 }
 
-/// A steady start is told by rotors, or by q and v.
+/// Whether a steady initial state is given by rotors, or by q and v.
 bool by_rotors(const StartRequest &start)
 {
   return start.rule == StartRule::steady && start.q.empty() && start.v.empty();
@@ -209,7 +209,7 @@ coupling::KnownStart modes_position(const Scene &scene, coupling::Machine &machi
 
 Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine)
 {
-  // With joints a position has to be closed: that of the start, or the one nearest to it with the given values.
+  // With joints the initial position must be assembled: at the start, or closest to it.
   if (coupling::has_joints(machine) && scene.modes.at.empty())
     return initial_state(scene, machine).q;
   const bool measured =
@@ -224,7 +224,7 @@ Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machi
   Eigen::VectorXd q = Eigen::VectorXd::Zero(machine.size());
   for (const auto &value : scene.modes.at)
     set_coordinate(q, value, machine);
-  coupling::close_chains(machine, q); // what is only given by its crank, such as a slide, follows
+  coupling::close_chains(machine, q); // moves bodies that follow a crank, such as a slide
   return q;
 }
 

@@ -79,7 +79,7 @@ coupling::ReducedFrame stand_in_for(const coupling::FrameOfParts &frame)
   return without_physics(six_motions_of(coupling::interfaces_in_frame(frame)), outputs);
 }
 
-/// Only the sizes of matrices that are too large to be looked at in no time.
+/// Only the sizes of matrices that are too large for a quick examination.
 coupling::ReducedFrame stand_in_for(const fem::FrameMatrices &matrices)
 {
   std::vector<std::string> outputs;
@@ -103,7 +103,7 @@ Eigen::Matrix3d resisted(const std::vector<fem::Support> &supports)
   return sum;
 }
 
-/// The same of parts, whose supports stand with them.
+/// The same for parts with their own supports.
 Eigen::Matrix3d resisted(const coupling::FrameOfParts &frame)
 {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
@@ -112,7 +112,7 @@ Eigen::Matrix3d resisted(const coupling::FrameOfParts &frame)
   return sum;
 }
 
-/// Of frames from geometry.
+/// Whether a frame from geometry has supports.
 bool has_supports(const FrameRequest &frame)
 {
   return !frame.geometry.supports.empty() ||
@@ -150,7 +150,7 @@ MatrixXd free_directions(const Scene &scene)
   {
     const Eigen::VectorXd t       = frame.translations.col(d);
     const double          cancels = t.cwiseAbs().dot(frame.C.cwiseAbs() * t.cwiseAbs());
-    // Of the energies that cancel in a free motion, as fem::free_motions() has it.
+    // Relative to the energies that cancel in a rigid-body mode, as in fem::free_motions().
     constexpr double free_share = 1e-13;
     held(d, d)                  = t.isZero() || t.dot(frame.C * t) > free_share * cancels;
   }
@@ -234,7 +234,7 @@ coupling::ReducedFrame rigid_stand_in(const Scene &scene)
     const Eigen::ColPivHouseholderQR<MatrixXd> qr(free);
     Q = qr.householderQ() * MatrixXd::Identity(R.rows(), qr.rank());
   }
-  constexpr double elastic_hz = 1000.; // far above what elements make of the masses of a machine
+  constexpr double elastic_hz = 1000.; // far above the frequencies of elements with the masses of a machine
   const double     omega      = two_pi * elastic_hz;
   frame.C                     = omega * omega * (frame.M - Q * Q.transpose());
   frame.frequencies_hz        = Eigen::VectorXd::Constant(R.rows(), elastic_hz);

@@ -52,8 +52,8 @@ Revolution slowest_revolution(const coupling::Machine &machine, const coupling::
 
 const char *const give_time = "give the time instead, as in output.from = \"1 s\"";
 
-/// What tells the time by itself has to repeat with the period: after loads at the end of the run, after a revolution,
-/// whose speed is that of the start, from the start on.
+/// Elements with explicit time dependence must be periodic: for loads at the end of the run, for a revolution, whose
+/// speed is the initial one, from the start.
 void require_repeating(const Scene &scene, const coupling::Machine &machine, const coupling::InitialState &initial,
                        double period, bool of_rotor)
 {
@@ -77,7 +77,7 @@ void require_repeating(const Scene &scene, const coupling::Machine &machine, con
 double result_window(const Scene &scene, const coupling::Machine &machine, const coupling::InitialState &initial)
 {
   const coupling::RunOptions &run = scene.run.options;
-  if (!scene.run.last_period || initial.v.size() == 0) // no start was found: there is no run
+  if (!scene.run.last_period || initial.v.size() == 0) // without an initial state there is no run
     return run.from;
   const double length = run.end - run.begin, of_loads = period_of_loads(machine);
   if (of_loads == 0. && !machine.linear().excitation().harmonics().empty())
@@ -108,7 +108,7 @@ void check_window(const Scene &scene, const coupling::Machine &machine, const co
     return;
   const int        i            = slowest.rotor->coordinate;
   const double     mean         = (run.end_state[i] - initial.q[i]) / length;
-  constexpr double equal_speeds = 0.01; // mean and start of a run: a window of a revolution, but for 4 degrees
+  constexpr double equal_speeds = 0.01; // mean and initial speed: a window of a revolution is accurate to 4 degrees
   if (std::abs(mean - slowest.speed) <= equal_speeds * std::abs(slowest.speed))
     return;
   run.warn("result-window", "output.from",

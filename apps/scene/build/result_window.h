@@ -12,11 +12,12 @@ namespace gestell::apps
 {
 
 /**
- * [s] from which on extremes count, [output] from.  The last period is the least common one of the loads with
- * harmonics, else a revolution of the slowest rotor that turns once in the run at the speed it starts with.
+ * [s] start of the interval in which extremes are evaluated, key `from` of [output].  The last period is the least
+ * common one of the loads with harmonics, or else a revolution of the slowest rotor that makes at least one revolution
+ * in the run at its initial speed.
  *
- * @throws std::invalid_argument if the scene asks for the last period of a machine that has none in its run, or where a
- *         force or a prescribed motion does not repeat with it
+ * @throws std::invalid_argument if the scene requests the last period and the machine has none in its run, or if a
+ *         force or a prescribed motion is not periodic with it
  */
 double result_window(const Scene &scene, const coupling::Machine &machine, const coupling::InitialState &initial);
 

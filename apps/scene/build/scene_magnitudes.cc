@@ -118,7 +118,7 @@ void judge_bodies(const Scene &scene, const coupling::MachineModel &machine, dou
   }
 }
 
-/// Those of the base system stand in the scene alone.
+/// Springs of the base system are only in the scene.
 std::vector<coupling::ElementScale> all_scales(const Scene &scene, const coupling::Machine &machine)
 {
   auto scales = coupling::element_scales(machine, Eigen::VectorXd::Zero(machine.size()));
@@ -186,8 +186,8 @@ const KlossMotor *motor_of(const ElementRequest &element)
   return dynamic ? &dynamic->stationary() : law_of<KlossMotor>(element);
 }
 
-/// From rest to the synchronous speed with the breakdown torque: J Omega / (i^2 M_K).  Behind joints more turns than
-/// the shaft itself, so that no time is too short there.
+/// Start-up time from rest to the synchronous speed with the breakdown torque: J Omega / (i^2 M_K).  With joints the
+/// motor may drive more inertia than its shaft; then no time counts as too short.
 void judge_motors(const Scene &scene, const coupling::Machine &machine, Warnings &warnings)
 {
   for (const coupling::ElementPlacement &placement : machine.model().elements())

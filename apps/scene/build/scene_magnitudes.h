@@ -11,18 +11,18 @@
 namespace gestell::apps
 {
 
-// Values that a scene may have and machines hardly do, as a unit that was forgotten or mistaken makes them: compared
+// Values that are valid but implausible for machines, typically because of a missing or wrong unit: they are compared
 // with the size and the masses of the machine itself.  Ranges with their reasons: docs/scene/magnitudes.md.
 
-/// Diagonal [m] of the box of all that the scene places in space; 0: nothing has a place.
+/// Diagonal [m] of the box around all positions in the scene; 0: it has no positions.
 double machine_size(const Scene &scene, const coupling::MachineModel &machine);
 
-/// "press.toml:12: element.rod.stiffness" of a body, an element or a joint and one of its keys.
+/// "press.toml:12: element.rod.stiffness" for a body, an element or a joint and one of its keys.
 std::string key_place(const Scene &scene, const std::string &object, const std::string &key);
 
 /**
- * Of the size of the machine: what its elastic parts, its frame and its supports yield by under weights and loads.
- * The softest of them, suspensions of vehicles and air springs, yield by up to 0.05; metal is strained below 0.005.
+ * Largest plausible deflection of elastic parts, frame and supports under weights and loads, relative to the size of
+ * the machine.  The softest parts, suspensions of vehicles and air springs, deflect by up to 0.05, metal below 0.005.
  */
 constexpr double most_yielding = 0.05;
 
@@ -32,14 +32,14 @@ std::string yielding_text(double size);
 enum class Masses
 {
   known,
-  of_stand_in ///< the frame is not made yet
+  of_stand_in ///< the frame has not been computed
 };
 
-/// Before a run: play, radii of gyration, unbalance; with known masses natural frequency and damping ratio of each
-/// element, start-up time of each motor, sag of the frame under its weight.
+/// Checks before a run: clearances, radii of gyration, unbalance; with known masses also natural frequency and damping
+/// ratio of each element, start-up time of each motor, and sag of the frame under its weight.
 std::vector<UnexpectedValue> scene_magnitudes(const Scene &scene, const coupling::Machine &machine, Masses masses);
 
-/// Damping of the frame, by its modes.
+/// Checks of the frame's damping, from its modes.
 std::vector<UnexpectedValue> magnitudes_of_modes(const Scene &scene, const std::vector<coupling::Mode> &of_frame);
 
 } // namespace gestell::apps

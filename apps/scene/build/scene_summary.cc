@@ -130,7 +130,7 @@ std::string joint_text(const JointRequest &joint)
   return "'" + joint.name + "' (" + kind + (joint.compliance ? ", yields" : "") + ")";
 }
 
-/// Names of elements without those of their parts, "guide.rear".
+/// Names of elements without the names of their parts, such as "guide.rear".
 std::string element_names(Words names)
 {
   for (std::string &name : names)
@@ -167,7 +167,7 @@ std::string laws_text(const Scene &scene)
   return text;
 }
 
-/// Of the mechanism in the position described, with its frame at rest: motions that joints leave free.
+/// Number of DOFs that joints leave to the mechanism in the reference configuration, with its frame at rest.
 long freedoms(coupling::Machine &machine)
 {
   std::vector<int> frame(std::size_t(machine.model().n_frame()));
@@ -180,7 +180,7 @@ long freedoms(coupling::Machine &machine)
   return coupling::free_motions(machine, local, frame).cols();
 }
 
-/// A frame that must be made first has coordinates of its inside beside those of the stand-in.
+/// A frame that is not yet computed has internal DOFs in addition to those of its placeholder.
 std::string coordinates_text(const Scene &scene, coupling::Machine &machine)
 {
   const int         n_frame = machine.model().n_frame(), n_rows = int(machine.joints().n_rows());
@@ -193,7 +193,7 @@ std::string coordinates_text(const Scene &scene, coupling::Machine &machine)
   if (n_rows == 0)
     return text;
   text += "; " + count_text(std::size_t(n_rows), "equation") + " of joints and rigid bodies";
-  constexpr int most_coordinates = 600; // of a machine whose freedoms are counted, which takes their cube
+  constexpr int most_coordinates = 600; // limit for the computation of the DOFs, whose cost grows with the third power
   if (places_known(scene) && machine.size() <= most_coordinates)
     text += "; on a frame at rest the mechanism has " + count_text(std::size_t(freedoms(machine)), "freedom");
   return text;

@@ -9,9 +9,9 @@ namespace gestell::apps
 {
 
 /**
- * The scene as it was understood, for people, a line each: frame with its interfaces, bodies, joints, laws, coordinates
- * and freedoms, start, what is computed and about how long that takes.  Nothing is computed; a frame that must be made
- * first is counted by its interfaces.
+ * Summary of the scene for people, one fact per line: frame with its interfaces, bodies, joints, laws, coordinates and
+ * DOFs, initial state, what is computed and an estimate of the time.  Nothing is computed; the DOFs of a frame that
+ * must be computed first are counted from its interfaces.
  */
 std::vector<std::string> scene_summary(const Scene &scene);
 

@@ -40,7 +40,7 @@ std::pair<double, double> largest_steps(const coupling::Machine &machine)
   return {2. / modes.omega.maxCoeff(), 1. / (decay * decay)};
 }
 
-/// What the modes do not carry of an energy of the start; empty: little.
+/// Share of an initial energy that the modes do not represent, as text; empty if it is small.
 std::string lost(const std::string &energy, double whole, double in_modes)
 {
   constexpr double worth_a_note = 0.02; // share of the energy of a start: 1 % of its amplitudes

@@ -8,7 +8,7 @@
 namespace gestell::apps
 {
 
-/// Of asynchronous motors, stationary or dynamic.
+/// Keys of asynchronous motors, stationary or dynamic.
 std::vector<Key> kloss_keys();
 
 /// Measures: angle of the shaft, against the stator; the torque, a lag.

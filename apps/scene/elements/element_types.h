@@ -10,18 +10,18 @@
 namespace gestell::apps
 {
 
-/// Reads one [element.NAME] and adds to the scene what it is made of.
+/// Reads one [element.NAME] and adds its parts to the scene.
 using ElementReader = void (*)(const SceneTable &table, const Names &names, Scene &scene);
 
-/// What a type of elements is; its reader, help, schema and reference come from it.
+/// A type of elements; its reader, help, schema and reference are generated from this.
 struct ElementType
 {
   std::string              name;     ///< value of the key `type`
-  std::string              does;     ///< one sentence
-  std::string              signals;  ///< that it has, in Markdown
-  std::vector<Key>         keys;     ///< beside `type` and `initially`
-  ElementReader            read;     ///< asks for these keys and no others
-  std::vector<std::string> examples; ///< of [element.NAME]; reading them asks for every key
+  std::string              does;     ///< description in one sentence
+  std::string              signals;  ///< of the type, in Markdown
+  std::vector<Key>         keys;     ///< in addition to `type` and `initially`
+  ElementReader            read;     ///< reads these keys and no others
+  std::vector<std::string> examples; ///< of [element.NAME]; together they use every key
 };
 
 /// All types of elements; to add one, write elements/x.cc and its line in element_types.cc.

@@ -50,7 +50,7 @@ void read_friction(const SceneTable &table, const Names &names, Scene &scene)
 void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto motion = constant_motion(read_relative_motion(table, names), names);
-  refuse_measure(table, motion); // it holds its measure where it sticks
+  refuse_measure(table, motion); // while sticking it constrains its measure
   const bool coefficients = table.has("normal_force") || table.has("static") || table.has("kinetic");
   if (coefficients == (table.has("static_force") || table.has("kinetic_force")))
     throw table.error("needs either 'normal_force' with 'static' and 'kinetic', or 'static_force' and 'kinetic_force'");

@@ -6,8 +6,8 @@
 namespace gestell::apps
 {
 
-/// F = preload + c (u - rest) + b u' acts on `to` along the direction, on `from` against it; on a measure against its
-/// growth.
+/// F = preload + c (u - rest) + b u' acts on `to` along the direction and on `from` in the opposite direction; on a
+/// measure it opposes the increase.
 void read_spring_damper(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto motion = read_relative_motion(table, names);

@@ -13,14 +13,14 @@ namespace gestell::apps
 namespace
 {
 
-/// What the values of a key amount to in machines; amounts outside are probably a mistaken unit.
+/// Plausible range of the values of a key; values outside probably have a wrong unit.
 struct Expected
 {
   double      least = 0., most = 0.; ///< of the amount, SI
   const char *why = "";              ///< a clause: what sets these limits
 };
 
-/// In the SI unit of the kind, as far as it is in the table below.
+/// In the SI unit of the kind, if it is in the table below.
 std::string with_unit(double value, const Kind &kind)
 {
   static const std::map<std::string, std::string> units = {
@@ -32,7 +32,7 @@ std::string with_unit(double value, const Kind &kind)
   return short_text(value) + (unit == units.end() ? "" : unit->second);
 }
 
-/// By the name of a key, in front of that of its kind.
+/// By the name of the key, or else by its kind.
 const Expected *expected_of(const std::string &key, const Kind &kind)
 {
   static const Expected                        friction{0., 2., "dry metal has 0.05 to 0.5, rubber on asphalt 1"};
@@ -111,10 +111,9 @@ bool compares_magnitudes(const std::string &warning)
 }
 
 /**
- * One mistake makes several values unexpected: the warning that is there already, which is nearer to its cause, names
- * them; else one is made of the value farthest out of its range, which names the others.
- *
- * @param warnings  of what was looked at before
+ * One mistake makes several values implausible.  They are added to an existing warning, which is closer to the cause;
+ * without one a warning is made for the value farthest outside its range, which lists the others.  @param warnings  of
+ * earlier checks
  */
 void warn_of_magnitudes(std::vector<UnexpectedValue> found, std::vector<std::string> &warnings)
 {

@@ -11,7 +11,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// A text that names a file from where it is written, by its whole path: it will be read from elsewhere.
+/// The text; if it names a file relative to its own file, the absolute path, because it will be read from elsewhere.
 std::string with_whole_path(const SceneNode &node)
 {
   std::error_code none;
@@ -19,7 +19,7 @@ std::string with_whole_path(const SceneNode &node)
   return !node.folder.empty() && fs::is_regular_file(path, none) ? fs::absolute(path).string() : node.text;
 }
 
-/// The entry of a scene, or null.
+/// The value of a key, or null.
 const SceneNode *entry_of(const SceneNode &root, const std::string &key)
 {
   const SceneNode *node = &root;
@@ -29,7 +29,7 @@ const SceneNode *entry_of(const SceneNode &root, const std::string &key)
   return node;
 }
 
-/// The scene's entries of tables that are replaced, which would be inherited in addition to the new ones.
+/// Keys of replaced tables of the scene, which the new file would otherwise inherit in addition to the new keys.
 std::string replaced_entries(const SceneNode &scene, const std::vector<SceneNode::Entry> &changes)
 {
   std::string replaced;

@@ -9,11 +9,11 @@
 namespace gestell::apps
 {
 
-/// Sets an entry in place of an earlier one, or inside a table among the changes.
+/// Adds a change of a key; it replaces an earlier change of the same key, or enters a table among the changes.
 void add_change(std::vector<SceneNode::Entry> &changes, const std::string &key, const SceneNode &value);
 
-/// A value as TOML has it on one line.
-/// @param text_of  what is written of a text
+/// A value as TOML on one line.
+/// @param text_of  text to write for a string value; null: the string
 std::string written_value(const SceneNode &value, std::string (*text_of)(const SceneNode &) = nullptr);
 
 /// The same with the absolute path of a file that a text names.

@@ -108,7 +108,7 @@ Quantity Parameters::evaluate_entry(const Table &table, const std::string &name,
     {
       const std::string message = e.what();
       if (message.find(": parameters.") != std::string::npos)
-        throw; // said already where it happened
+        throw; // the message already names the place
       fail(value, name, message);
     }
   if (!std::isfinite(result.value))
@@ -151,7 +151,7 @@ Expression Parameters::expression(const SceneNode &value, const std::vector<Vari
 
 void Parameters::use(const std::string &name) const
 {
-  std::vector<std::string> waiting = {name}; // no recursion: where each stands behind what it needs, chains may be long
+  std::vector<std::string> waiting = {name}; // no recursion, as chains may be long
   while (!waiting.empty())
   {
     const std::string next = std::move(waiting.back());

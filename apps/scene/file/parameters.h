@@ -12,7 +12,7 @@
 namespace gestell::apps
 {
 
-/// A parameter is given another value, and no value of the scene depends on it.
+/// A parameter is overridden, but no value of the scene depends on it.
 struct IdleParameter : std::invalid_argument
 {
   using std::invalid_argument::invalid_argument;
@@ -24,21 +24,21 @@ class Parameters
 public:
   Parameters() = default;
   /// @param table  the table [parameters], or null if there is none.
-  /// @throws std::invalid_argument with file and line for circles, names that mean something else, and wrong values.
+  /// @throws std::invalid_argument with file and line for circular definitions, reserved names, and wrong values.
   explicit Parameters(const SceneNode *table);
 
   std::optional<Quantity>         find(const std::string &name) const;
   const std::vector<std::string> &names() const;
 
-  /// A number or an expression; what a plain number measures is not known.
+  /// Value of a number or an expression; the dimension of a plain number is unknown.
   Quantity evaluate(const SceneNode &value) const;
-  /// The same of `variables` as well; `kind` as of parse_expression().
+  /// The same including `variables`; `kind` as for parse_expression().
   Expression expression(const SceneNode &value, const std::vector<Variable> &variables,
                         const Kind *kind = nullptr) const;
 
-  /// Refuses a parameter of the command line (`--set`) that no value read so far depends on: a slip of the pen would
-  /// else change nothing without a word.
-  /// @throws std::invalid_argument with the nearest name
+  /// Rejects an overridden parameter (`--set`) on which no value read so far depends: a typing error would otherwise be
+  /// ignored silently.
+  /// @throws std::invalid_argument with the most similar name
   void refuse_idle_overrides() const;
 
 private:
@@ -48,9 +48,9 @@ private:
 
   std::map<std::string, Quantity>              values_;
   std::vector<std::string>                     names_;     ///< of these, in the same order
-  std::map<std::string, std::set<std::string>> needs_;     ///< of a parameter, others
-  std::map<std::string, Place>                 overrides_; ///< those of the command line
-  mutable std::set<std::string>                used_;      ///< by values outside the table, and what those need
+  std::map<std::string, std::set<std::string>> needs_;     ///< other parameters on which a parameter depends
+  std::map<std::string, Place>                 overrides_; ///< from the command line
+  mutable std::set<std::string>                used_;      ///< by values outside the table, with their dependencies
 };
 
 } // namespace gestell::apps

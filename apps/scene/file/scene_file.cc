@@ -17,7 +17,7 @@ namespace
 
 using Type = SceneNode::Type;
 
-/// Entries of `own` over those of `base`.
+/// Merges the keys of `own` into `base`, where they have priority.
 void merge(SceneNode &base, const SceneNode &own)
 {
   if (base.type != Type::table || own.type != Type::table)
@@ -39,7 +39,7 @@ void remove(SceneNode &table, const std::string &key)
   e.erase(std::remove_if(e.begin(), e.end(), [&](const auto &entry) { return entry.first == key; }), e.end());
 }
 
-/// Takes one entry "joint.cylinder", or one inside of it, out of what is inherited.
+/// Removes one table "joint.cylinder", or a key in it, from the inherited scene.
 void leave_out(SceneNode &base, const SceneNode &path)
 {
   const auto        refuse = [&](const std::string &why) { path.place.fail("without: '" + path.text + "': " + why); };
@@ -48,7 +48,7 @@ void leave_out(SceneNode &base, const SceneNode &path)
     refuse("needs the table and the name of one entry, such as \"joint.cylinder\"");
   SceneNode  *table = base.find(path.text.substr(0, dot));
   std::string name  = path.text.substr(dot + 1);
-  if (table && !table->find(name)) // inside of an entry, "joint.cylinder.motion"
+  if (table && !table->find(name)) // a key in a table, "joint.cylinder.motion"
   {
     const auto segments = key_segments(name, path.place);
     name                = segments.back();

@@ -9,18 +9,18 @@
 namespace gestell::apps
 {
 
-/// Where a value stands: "press.toml:12", or "--set run.step=1" if it came from the command line.
+/// Location of a value: "press.toml:12", or "--set run.step=1" from the command line.
 struct Place
 {
   std::string file;
   int         line = 0; ///< from 1; 0: the file as a whole
 
   std::string text() const { return line > 0 ? file + ":" + std::to_string(line) : file; }
-  /// @throws std::invalid_argument always: the place, and what is wrong there
+  /// @throws std::invalid_argument always: the location, and the error
   [[noreturn]] void fail(const std::string &what) const { throw std::invalid_argument(text() + ": " + what); }
 };
 
-/// A value of a scene file, with its place; tables keep the order of the file.
+/// A value of a scene file, with its location; tables keep the order of the file.
 struct SceneNode
 {
   enum class Type
@@ -37,16 +37,16 @@ struct SceneNode
 
   Type        type = Type::table;
   Place       place;
-  std::string folder; ///< relative paths in the value start here
-  std::string text;   ///< of a text; a number as it is written
+  std::string folder; ///< base of relative paths in the value
+  std::string text;   ///< of a string; a number as it is written
   double      number  = 0.;
   bool        boolean = false;
 
   std::vector<Entry>     entries;  ///< of a table
   std::vector<SceneNode> elements; ///< of an array
 
-  mutable bool                  used = false; ///< somebody asked for it
-  mutable std::set<std::string> requested;    ///< keys somebody asked this table for
+  mutable bool                  used = false; ///< a reader requested it
+  mutable std::set<std::string> requested;    ///< keys that readers requested from this table
 
   const SceneNode *find(const std::string &key) const;
   SceneNode       *find(const std::string &key);
@@ -55,7 +55,7 @@ struct SceneNode
 /// "a table", "text", "a whole number" ...
 std::string type_name(SceneNode::Type type);
 
-/// A value as messages quote it: its text, or what it is.
+/// A value for messages: its text, or its type.
 std::string described(const SceneNode &value);
 
 /// Key as it must be written in TOML: bare, or in quotes.

@@ -8,11 +8,11 @@
 namespace gestell::apps
 {
 
-/// Sets one entry: "key.path=value", as explained at read_scene_file().
+/// Sets one key: "key.path=value", see read_scene_file().
 void apply_override(SceneNode &root, const std::string &text);
 /// The key and the value of "key.path=value".
 std::pair<std::string, SceneNode> parsed_override(const std::string &text);
-/// apply_override() of a value that was read elsewhere; messages name its place.
+/// apply_override() for a value that was parsed elsewhere; messages contain its location.
 void apply_override(SceneNode &root, const std::string &key, const SceneNode &value);
 
 /// Keys of a table; null: none.

@@ -71,7 +71,7 @@ std::invalid_argument SceneTable::error(const std::string &key, const std::strin
 
 void SceneTable::warn(const std::string &key, const std::string &what) const
 {
-  // What several readers read is told once.
+  // A warning of several readers is added once.
   const std::string warning = place(key) + ": " + what;
   if (std::find(warnings_->begin(), warnings_->end(), warning) == warnings_->end())
     warnings_->push_back(warning);

@@ -18,11 +18,11 @@ namespace gestell::apps
 using Vector3 = std::array<double, 3>;
 
 /**
- * A table of a scene as its readers see it: every getter names the key and what it must be, and leaves a mark, so that
- * finish() can tell which keys nobody knows.
+ * A table of a scene for its readers: every getter specifies the key and its type, and marks it as used, so that
+ * finish() finds unknown keys.
  *
- * Getters throw std::invalid_argument: "press.toml:12: body.crank.inertia: needs a moment of inertia such as
- * "250 kg m^2", got ...".  Those without a fallback demand the key.
+ * Getters throw std::invalid_argument: "press.toml:12: body.crank.inertia: needs a moment of inertia such as "250 kg
+ * m^2", got ...".  For getters without a fallback the key is required.
  */
 class SceneTable
 {
@@ -30,17 +30,17 @@ public:
   /// @param path  of the table in the scene, "body.crank"; "" for the scene itself.
   SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path);
 
-  /// The same table, whose keys are `keys` and no others.  They must outlive it.
+  /// The same table with exactly the keys `keys`, which must outlive it.
   SceneTable declared(const std::vector<Key> &keys) const;
 
   bool has(const std::string &key) const; ///< marks the key as known
   bool declares(const std::string &key) const { return keys_ && find_key(*keys_, key); }
   bool demands(const std::string &key) const { return declaration(key).demanded; }
 
-  // Of declared keys: kind, range, choices and default are those of the declaration.
+  // For declared keys: kind, range, choices and default are those of the declaration.
 
-  /// Gives the members of `object` that keys go into (Key::into()) their values; those of keys that are left out and
-  /// have no default as a number keep theirs.
+  /// Fills the members of `object` that keys are bound to (Key::into()); members of missing keys without a numerical
+  /// default are unchanged.
   template <class Object>
   void fill(Object &object, bool on_angle = false) const
   {
@@ -55,8 +55,8 @@ public:
   }
 
   double value(const std::string &key, bool on_angle = false) const;
-  void demand(std::initializer_list<const char *> numbers, bool on_angle = false) const; ///< that may else be left out
-  /// @param otherwise  in place of a default
+  void   demand(std::initializer_list<const char *> numbers, bool on_angle = false) const; ///< requires optional keys
+  /// @param otherwise  replaces a default
   double      value_or(const std::string &key, double otherwise, bool on_angle = false) const;
   std::string choice(const std::string &key) const;
   bool        truth(const std::string &key) const;
@@ -66,15 +66,15 @@ public:
 
   double number(const std::string &key, const Kind &kind) const;
   double number(const std::string &key, const Kind &kind, double fallback) const;
-  /// A value of any kind, whose dimension the caller judges.
+  /// A value of any kind, whose dimension the caller checks.
   Quantity quantity(const std::string &key) const;
-  /// As number(), and must be > 0 or >= 0.
+  /// Like number(), but the value must be > 0 or >= 0.
   double positive(const std::string &key, const Kind &kind) const;
   double positive(const std::string &key, const Kind &kind, double fallback) const;
   double not_negative(const std::string &key, const Kind &kind) const;
   double not_negative(const std::string &key, const Kind &kind, double fallback) const;
 
-  /// A part of a whole, above 0 and at most 1: 0.15 or "15 %"; who writes 15 means percent.
+  /// A share above 0 and at most 1: 0.15 or "15 %"; for 15 the message proposes percent.
   double share(const std::string &key) const;
 
   /// A formula of `variables`, or a value.
@@ -86,12 +86,12 @@ public:
   std::string              text(const std::string &key) const;
   std::string              text(const std::string &key, const std::string &fallback) const;
   std::string              choice(const std::string &key, const std::vector<std::string> &valid,
-                                  const std::string &fallback) const; ///< fallback "": demanded
-  std::vector<std::string> texts(const std::string &key) const;       ///< one text or an array of them
-  std::string              file(const std::string &key) const;        ///< absolute path of a file that exists
+                                  const std::string &fallback) const; ///< fallback "": required
+  std::vector<std::string> texts(const std::string &key) const;       ///< one string or an array of them
+  std::string              file(const std::string &key) const;        ///< absolute path of an existing file
 
   Vector3                          vector(const std::string &key, const Kind &kind) const;
-  Vector3                          direction(const std::string &key) const; ///< made a unit vector
+  Vector3                          direction(const std::string &key) const; ///< normalised to a unit vector
   Vector3                          direction(const std::string &key, const Vector3 &fallback) const;
   std::vector<double>              numbers(const std::string &key, const Kind &kind) const;
   std::vector<std::vector<double>> matrix(const std::string &key, const Kind &kind) const; ///< rows of equal length
@@ -120,11 +120,11 @@ public:
   std::invalid_argument error(const std::string &what) const;
   std::invalid_argument error(const std::string &key, const std::string &what) const;
 
-  /// Notes what is allowed and probably not meant, for the user to read.
+  /// Adds a warning about valid but suspicious input.
   void                            warn(const std::string &key, const std::string &what) const;
   const std::vector<std::string> &warnings() const { return *warnings_; } ///< of the whole scene
 
-  /// Refuses keys nobody asked for, here and in all tables below that were read; call after reading everything.
+  /// Rejects keys that no reader requested, here and in all inner tables that were read; call after reading everything.
   void finish() const;
 
 private:
@@ -132,10 +132,10 @@ private:
   SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path, const std::string &name,
              const Warnings &warnings);
   void fill(void *object, const std::type_info &type, bool on_angle) const;
-  /// Of tables of a declared key the keys are declared, too.
+  /// Inner tables of a declared key have declared keys, too.
   SceneTable inner(SceneTable table, const std::string &key) const;
   SceneTable below(const SceneNode &node, const std::string &path, const std::string &name) const;
-  /// @throws std::logic_error for a key that a table with declared ones has not.
+  /// @throws std::logic_error for a key that is not declared, in a table with declared keys.
   const SceneNode *look_up(const std::string &key) const;
   const Key       &declaration(const std::string &key) const;
   const SceneNode &demand(const std::string &key, const std::string &what) const;
@@ -144,15 +144,15 @@ private:
   /// A value or a formula of `variables` of that kind.
   mechanism::Formula expression(const std::string &key, const SceneNode &value, const std::vector<Variable> &variables,
                                 const Kind &kind) const;
-  bool               is_formula_of_time(const SceneNode &value, const Kind &kind) const; ///< if there were a variable t
+  bool               is_formula_of_time(const SceneNode &value, const Kind &kind) const; ///< valid with variable t
 
   const SceneNode  *node_;
   const Parameters *parameters_;
   std::string       path_, name_;
   Warnings          warnings_;
 
-  const std::vector<Key> *keys_ = nullptr; ///< null: any key may be asked for
-  bool                    open_ = false;   ///< so may others beside `keys_`, which are names
+  const std::vector<Key> *keys_ = nullptr; ///< null: any key may be requested
+  bool                    open_ = false;   ///< keys other than `keys` are allowed: names
 };
 
 } // namespace gestell::apps

@@ -10,10 +10,10 @@ namespace gestell::apps
 namespace
 {
 
-/// Lines that are longer get no hint: std::regex takes some of the stack for each letter, and time by powers of them.
+/// Longer lines get no hint: std::regex needs stack for each letter, and time that grows with powers of their number.
 constexpr std::size_t longest_judged = 120;
 
-/// Without its comment, and with nothing inside its quotes.
+/// The line without its comment and without the contents of its quotes.
 std::string bare(const std::string &line)
 {
   std::string result;
@@ -96,7 +96,7 @@ std::string toml_hint(const std::string &line)
 namespace
 {
 
-/// What a line defines: the text in the brackets of a head, or that before the =.
+/// The name that a line defines: the text in the brackets of a head, or before the =.
 std::string defined_in(const std::string &line)
 {
   const std::string content = trimmed(line);
@@ -106,7 +106,7 @@ std::string defined_in(const std::string &line)
   return begin < end && end != std::string::npos ? trimmed(content.substr(begin, end - begin)) : "";
 }
 
-/// Of a key or table that is defined twice.
+/// Hint for a key or table that is defined twice.
 std::string hint_of_repetition(const std::string &line, const std::string &reason)
 {
   static const std::regex twice(R"(cannot redefine existing ([a-z-]+)( '([A-Za-z0-9_.-]+)')?)");
@@ -127,7 +127,7 @@ std::string hint_of_repetition(const std::string &line, const std::string &reaso
   return "the key '" + name + "' stands twice in this table; leave one of the two out";
 }
 
-/// Where the line itself shows nothing.
+/// Hint from the reason only, if the line itself gives none.
 std::string hint_of_place(const std::string &reason)
 {
   if (reason.find("expected comma or closing ']'") != std::string::npos)
@@ -165,7 +165,7 @@ int line_at(const std::string &text, std::size_t place)
   return 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(place), '\n'));
 }
 
-/// Bytes of the character that begins there, 0: none of UTF-8 does.
+/// Number of bytes of the character at `at`; 0 if no UTF-8 character begins there.
 std::size_t utf8_length(const std::string &text, std::size_t at)
 {
   const auto        first  = static_cast<unsigned char>(text[at]);

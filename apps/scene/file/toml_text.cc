@@ -31,7 +31,7 @@ std::string line_of(const std::string &text, int number)
   return line;
 }
 
-constexpr int deepest = 50; ///< tables and arrays in each other; parsers take some of the stack for each
+constexpr int deepest = 50; ///< levels of nested tables and arrays; parsers recurse on the stack
 
 /// Past a string that begins at i: to its closing quotes, or the end of the text.
 std::size_t behind_string(const std::string &text, std::size_t i)
@@ -74,7 +74,7 @@ int too_deep(const std::string &text)
   return 0;
 }
 
-/// Finds places of a text, which the parser gives as line and character of UTF-8; fast for places in their order.
+/// Converts locations of the parser, line and UTF-8 character, to bytes of the text; fast for ascending locations.
 class PlacesInText
 {
 public:
@@ -84,8 +84,8 @@ public:
       lines_.push_back(i + 1);
   }
 
-  /// The characters of a real number as they are written, so that no digit is lost; where they are no number to a
-  /// formula ("1_000.5"), all digits of its value.
+  /// A real number as written, so that no digit is lost; all digits of its value if formulas cannot read it
+  /// ("1_000.5").
   std::string written_number(const toml::value<double> &value)
   {
     const std::size_t begin = byte(value.source().begin), end = byte(value.source().end);
@@ -114,7 +114,7 @@ private:
   }
 
   const std::string       &text_;
-  std::vector<std::size_t> lines_{0}; ///< bytes at which they begin
+  std::vector<std::size_t> lines_{0}; ///< byte at which each begins
   toml::source_index       line_ = 0, column_ = 0;
   std::size_t              byte_ = 0; ///< of the last place
 };

@@ -23,7 +23,7 @@ std::vector<std::string> names_of(const std::vector<Type> &types)
   return names;
 }
 
-/// The same with the key `type` that chooses among them before their own.
+/// The same with the key `type`, which selects one of them, before their other keys.
 template <class Type>
 std::vector<Type> with_type(std::vector<Type> types)
 {
@@ -33,7 +33,7 @@ std::vector<Type> with_type(std::vector<Type> types)
   return types;
 }
 
-/// That of a table, which may have the keys of any of them beside `own`.
+/// The type of a table; keys of `own` are allowed in addition to those of any type.
 template <class Type>
 const Type &type_of(const SceneTable &table, const std::vector<Type> &types, const std::vector<Key> &own = {})
 {

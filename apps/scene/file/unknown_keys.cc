@@ -24,7 +24,7 @@ void refuse_unknown(const SceneNode &table, const std::string &path)
   {
     if (!value.used)
       throw unknown({key, value}, path, {table.requested.begin(), table.requested.end()});
-    // A table nobody looked into, as opposed to one without the key, has told nobody its keys.
+    // Only tables whose keys a reader requested are searched for unknown keys.
     const std::string own = (path.empty() ? "" : path + ".") + written_key(key);
     if (value.type == SceneNode::Type::table && (!value.requested.empty() || value.entries.empty()))
       refuse_unknown(value, own);
@@ -37,7 +37,7 @@ void refuse_unknown(const SceneNode &table, const std::string &path)
 std::optional<std::invalid_argument> unknown_key(const SceneNode &table, const std::vector<Key> &declared,
                                                  const std::string &path)
 {
-  std::vector<std::string> absent; // one of them is meant
+  std::vector<std::string> absent; // one of them may be intended
   for (const Key &key : declared)
     if (!table.find(key.name))
       absent.push_back(key.name);

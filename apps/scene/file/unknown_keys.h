@@ -11,13 +11,13 @@
 namespace gestell::apps
 {
 
-/// Of a table with declared keys the first that is none of them, told before what is missing: it may be its
-/// misspelling.
+/// The first undeclared key of a table with declared keys.  It is reported before missing keys, because it may be a
+/// misspelling of one.
 std::optional<std::invalid_argument> unknown_key(const SceneNode &table, const std::vector<Key> &declared,
                                                  const std::string &path);
 
-/// Refuses keys that no reader has used, in the table and in the tables below it that were read.
-/// @throws std::invalid_argument with the place and the nearest key
+/// Rejects keys that no reader has used, in the table and in its inner tables that were read.
+/// @throws std::invalid_argument with the location and the most similar key
 void refuse_unknown(const SceneNode &table, const std::string &path);
 
 } // namespace gestell::apps

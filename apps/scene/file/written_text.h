@@ -5,10 +5,10 @@
 namespace gestell::apps
 {
 
-/// Text as it must be written in TOML: in quotes, on one line.
+/// A string in TOML syntax: quoted, on one line.
 std::string written_text(const std::string &text);
 
-/// As messages quote a number: an expression tells its value, too: "m3, which is -3200 in SI units".
+/// A number for messages; for an expression with its value: "m3, which is -3200 in SI units".
 std::string with_value(const std::string &text, double value);
 
 } // namespace gestell::apps

@@ -81,7 +81,7 @@ std::optional<ComplianceRequest> read_compliance(const SceneTable &any, const Jo
   return compliance;
 }
 
-/// One stiffness is the same along any axes; a damper must not brake what turns with the body it is on.
+/// A single stiffness is the same along any axes; a damper must not brake a rotation together with its body.
 Carrier carrier_of(const JointRequest &joint, const Pair &pair)
 {
   using coupling::BodyKind;
@@ -155,8 +155,7 @@ bool is_linear(const Pair &pair, const RelativeMeasure &s)
   return true;
 }
 
-/// Where all s are linear, as of a body in space that is held on the ground, each is one measure, whatever it is made
-/// of.
+/// If all s are linear, as for a free spatial body fixed to the ground, each becomes one measure.
 void take_as_measures(Pair &pair, std::vector<CompliantJoint::Equation> &equations)
 {
   using coupling::operator+, coupling::operator*;
@@ -170,7 +169,7 @@ void take_as_measures(Pair &pair, std::vector<CompliantJoint::Equation> &equatio
   {
     IdealJoint::Equation &demand = equations[i].demand;
     demand.offset -=
-        mechanism::PlacedMeasure{pair.first, pair.second, demand.measure}.evaluate(zero, zero, G).s; // as described
+        mechanism::PlacedMeasure{pair.first, pair.second, demand.measure}.evaluate(zero, zero, G).s; // initially
     measures.emplace_back();
     for (std::size_t k = 0; k < pair.measures.size(); ++k)
       measures.back() = measures.back() + G[k] * pair.measures[k];

@@ -8,17 +8,17 @@
 namespace gestell::apps
 {
 
-/// Of joints that may yield: `stiffness`, `damping` and what is held of rotations.
+/// Keys of joints that can be compliant: `stiffness`, `damping`, and those for rotations.
 const std::vector<Key> &compliance_keys();
 
-/// None where none of them is given.
-/// @throws std::invalid_argument for joints that do not hold two places, and values that hold nothing
+/// None if none of the keys is given.
+/// @throws std::invalid_argument for joints that do not connect two markers, and values without any stiffness
 std::optional<ComplianceRequest> read_compliance(const SceneTable &table, const JointType &type);
 
-/// What carries the directions of a point that yields.
+/// Which body carries the directions of a compliant point.
 mechanism::RelativeMeasure::Carrier carrier_of(const JointRequest &joint, const Pair &pair);
 
-/// The joint that is kept closed by springs and dampers, one for each of its equations.
+/// The joint with a spring and a damper in place of each of its equations.
 std::shared_ptr<mechanism::CompliantJoint> compliant_joint(const JointRequest &joint, const JointEquations &equations,
                                                            Pair &pair);
 

@@ -17,7 +17,7 @@ using mechanism::RelativeMeasure;
 using mechanism::Vector3d;
 using Form = RelativeMeasure::Form;
 
-/// Measure i of the two bodies: how far [m], or with a rotation how much of a turn, it moves them per unit at most.
+/// Effect of measure i on the two bodies: largest displacement [m] per unit, or with a rotation the share of rotation.
 struct Reach
 {
   double translation, rotation;
@@ -141,7 +141,7 @@ std::vector<Vector3d> Pair::own_axes() const
   return axes;
 }
 
-/// Of rotors, before those of sliders.
+/// Axes of rotors, before those of sliders.
 std::vector<Vector3d> Pair::fixed_axes() const
 {
   std::vector<Vector3d> axes;

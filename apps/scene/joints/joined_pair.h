@@ -16,35 +16,36 @@ inline mechanism::Vector3d vector(const Vector3 &a)
 Vector3               point_of(const coupling::MachineModel &machine, const PlaceRequest &place);
 coupling::PlacedPoint placed(const coupling::MachineModel &machine, const PlaceRequest &place);
 
-/// Two places with the measures of both.
+/// Two points with the measures of both.
 struct Pair
 {
   Pair(const coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to);
 
-  const coupling::Body *planar() const;    ///< one of the two, if it is
-  bool                  in_space() const;  ///< one of the two turns freely
-  bool                  has_point() const; ///< one of the two has no rotation to compare with
-  double                size() const;      ///< [m] of the numbers that say where the places are
-  double                at_start(const mechanism::RelativeMeasure &measure) const; ///< in the position described
-  /// Some motion of the two changes it by more than rounding; of coordinates of the machine from that one on.
+  const coupling::Body *planar() const;    ///< one of the two, if it is planar
+  bool                  in_space() const;  ///< one of the two is a free spatial body
+  bool                  has_point() const; ///< one of the two is a point without rotation
+  double                size() const;      ///< [m] of the numbers that define the points
+  double                at_start(const mechanism::RelativeMeasure &measure) const; ///< in the reference configuration
+  /// Whether some motion of the two bodies changes it by more than rounding; only coordinates of the machine with index
+  /// >= `from`.
   bool                             moves(const mechanism::RelativeMeasure &measure, int from = 0) const;
-  std::vector<mechanism::Vector3d> own_axes() const;   ///< about which rotors and planar bodies turn
-  std::vector<mechanism::Vector3d> fixed_axes() const; ///< about which rotors turn, along which sliders move
+  std::vector<mechanism::Vector3d> own_axes() const;   ///< axes of rotors and planar bodies
+  std::vector<mechanism::Vector3d> fixed_axes() const; ///< axes of rotors, directions of sliders
 
   mechanism::Placement           first, second;
   std::vector<coupling::Measure> measures;
   const coupling::Body          *on_first = nullptr, *on_second = nullptr;
-  int                            n_frame; ///< coordinates of the frame, the first ones of the machine
+  int                            n_frame; ///< number of frame coordinates, the first ones of the machine
 };
 
-/// Largest gradient that an equation could have in measure i: of a length by the lever, of an angle by the turn.
+/// Largest possible gradient of an equation with measure i: of a length by the lever, of an angle by the rotation.
 double largest_gradient(const Pair &pair, const mechanism::RelativeMeasure &measure, int i);
 
-/// Motion k of three of no order, as large as the bodies: what changes in none of them changes in no motion.
+/// Motion k of three random ones, as large as the bodies: an equation that none changes is not changed by any motion.
 void sample_motion(int k, const Pair &pair, double *u);
 
-/// Gradient of an equation that no motion of the two bodies changes, as a share of the largest it could have: what
-/// motions as large as the bodies are change by less than the assembly of a machine leaves joints open [m].
+/// Gradient below which no motion of the two bodies changes an equation, relative to the largest possible one: motions
+/// as large as the bodies change it by less than the assembly tolerance of joints [m].
 constexpr double immobile = 1e-10;
 
 } // namespace gestell::apps

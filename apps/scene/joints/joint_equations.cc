@@ -47,14 +47,14 @@ bool is_global(const Vector3d &axis)
   return std::any_of(all.begin(), all.end(), [&](const Vector3d &a) { return are_parallel(a, axis); });
 }
 
-/// Unit vectors at right angles to the axis and to each other, at most so many, as near to `directions` as may be.
+/// At most `at_most` unit vectors, orthogonal to the axis and to each other, as near to `directions` as possible.
 std::vector<Vector3d> across(const Vector3d &axis, const std::vector<Vector3d> &directions, std::size_t at_most)
 {
   std::vector<Vector3d> found;
   for (const Vector3d &a : directions)
   {
     Vector3d side = a - a.dot(axis) * axis;
-    // Sine of the angle between directions from which one is told across the other; less would enlarge rounding as
+    // Smallest sine of the angle between directions that define a normal; smaller angles would amplify rounding too
     // much.
     constexpr double apart = 1e-3;
     if (side.norm() < apart || found.size() == at_most ||
@@ -98,8 +98,8 @@ RelativeMeasure seen_from_first(const Vector3d &a)
   return displacement;
 }
 
-/// Three directions, those of a planar body's plane first; of rotors and sliders the axis is one of them, so that each
-/// direction is one in which they move or one in which they do not.
+/// Three directions, first those in the plane of a planar body; for rotors and sliders the axis is one of them, so that
+/// in each direction they either move or do not.
 std::vector<Vector3d> JointEquations::directions() const
 {
   const Body *body = pair_.planar();
@@ -117,7 +117,7 @@ std::vector<Vector3d> JointEquations::directions() const
   return basis;
 }
 
-/// Of a planar body the axis itself, and that of a partner which turns about another one.
+/// For a planar body: its axis and, if the other body rotates about a different axis, that axis (made orthogonal).
 std::vector<Vector3d> JointEquations::axes_of_rotation() const
 {
   if (!pair_.planar() || pair_.in_space())
@@ -130,8 +130,8 @@ std::vector<Vector3d> JointEquations::axes_of_rotation() const
   return axes;
 }
 
-/// Across its plane a planar body cannot yield: there it holds what bodies of the mechanism would carry out of the
-/// plane, but not the motion of a frame.
+/// Normal to its plane a planar body cannot be compliant: there it is constrained relative to bodies of the mechanism,
+/// but not to a moving frame.
 bool JointEquations::is_held(const RelativeMeasure &distance) const
 {
   const Body *planar = pair_.planar();
@@ -217,7 +217,7 @@ IdealJoint::Equation JointEquations::distance_along(const Vector3d &a, Carrier c
   return equation;
 }
 
-/// The places keep their distance along a, which is as described or `value`.
+/// Keeps the distance of the points along a constant: at its value in the reference configuration, or at `value`.
 void JointEquations::along(const Vector3d &a, Carrier carrier, const std::string &name, std::optional<double> value)
 {
   const IdealJoint::Equation equation = distance_along(a, carrier, name);
@@ -228,7 +228,7 @@ void JointEquations::along(const Vector3d &a, Carrier carrier, const std::string
     add(equation, value);
 }
 
-/// What no motion can close must be closed as described.
+/// A gap that no motion can close must be zero in the reference configuration.
 void JointEquations::require_closed(const Vector3d &a, double gap) const
 {
   constexpr double closed = 1e-10; // share of the numbers of its places by which the assembly leaves a joint open
@@ -240,7 +240,7 @@ void JointEquations::require_closed(const Vector3d &a, double gap) const
   throw std::invalid_argument(message.str());
 }
 
-/// s stays as described, or is `value`; left out where neither body moves it.
+/// s keeps its reference value, or has `value`; omitted if neither body changes it.
 void JointEquations::add(IdealJoint::Equation equation, std::optional<double> value)
 {
   equation.offset = value ? *value : pair_.at_start(equation.measure);
@@ -248,7 +248,7 @@ void JointEquations::add(IdealJoint::Equation equation, std::optional<double> va
     list.push_back(std::move(equation));
 }
 
-/// Rotation of body 2 about a = factor times that of body 1.
+/// The rotation of body 2 about a equals factor times the rotation of body 1.
 void JointEquations::ratio(IdealJoint::Equation equation, const Vector3d &a, double factor)
 {
   equation.measure = rotation_about(pair_, a, factor);

@@ -11,24 +11,24 @@
 namespace gestell::apps
 {
 
-/// Rotation of body 2 about a, less `factor` times that of body 1: of bodies that turn about one axis, or little.
+/// Rotation of body 2 about a minus `factor` times that of body 1: for rotation about one axis, or small angles.
 mechanism::RelativeMeasure rotation_about(const Pair &pair, const mechanism::Vector3d &a, double factor);
-/// Angle of body 2 against body 1 about a, which both carry, in (-pi, pi]: of bodies that turn freely.
+/// Angle of body 2 relative to body 1 about a, which is fixed to both, in (-pi, pi]: for free spatial bodies.
 mechanism::RelativeMeasure angle_about(const mechanism::Vector3d &a);
-/// Displacement of place 2 against place 1 along a, which body 1 carries.
+/// Displacement of point 2 relative to point 1 along a, which is fixed to body 1.
 mechanism::RelativeMeasure seen_from_first(const mechanism::Vector3d &a);
 
 /**
- * The equations of a joint between two places, one after the other.  Those that no motion of the two bodies changes are
- * left out; a distance that they would have to close must be closed as described.
+ * The equations of a joint between two points, added one by one.  Equations that no motion of the two bodies changes
+ * are omitted; they must be satisfied in the reference configuration.
  *
  * Source: docs/theory/joints.md (3), (10).
  */
 class JointEquations
 {
 public:
-  /// @param on_global_axes  directions are these as far as the bodies let: what yields has a stiffness along each
-  /// @param held_by         what carries the directions along which two places stay together
+  /// @param on_global_axes  the directions are the global axes, as far as the bodies allow, as for compliant joints
+  /// @param held_by         body that carries the directions in which two points coincide
   explicit JointEquations(const Pair &pair, bool on_global_axes = false,
                           mechanism::RelativeMeasure::Carrier held_by = mechanism::RelativeMeasure::Carrier::space)
       : pair_(pair), on_global_axes_(on_global_axes), held_by_(held_by)
@@ -36,33 +36,33 @@ public:
   }
 
   std::vector<mechanism::IdealJoint::Equation> list;
-  bool                                         holds_point = false; ///< coincide() is among them
+  bool                                         holds_point = false; ///< coincide() was called
 
   const Pair &pair() const { return pair_; }
 
-  /// The two places stay together.
+  /// The two points coincide.
   void coincide();
-  /// The second place stays on a line along `axis`, which turns with the first body: as described, or through the first
-  /// place.
+  /// The second point remains on a line along `axis`, which is fixed to the first body: at its reference position, or
+  /// through the first point.
   void on_line(const mechanism::Vector3d &axis, std::optional<double> distance);
-  /// The second place stays as described in a plane across `axis`, which turns with the first body.
+  /// The second point remains in the plane normal to `axis` (fixed to the first body) through its reference position.
   void in_plane(const mechanism::Vector3d &axis);
-  /// The bodies do not turn against each other.
+  /// The bodies do not rotate relative to each other.
   void no_rotation();
-  /// They turn against each other about `axis` alone.
+  /// They rotate relative to each other only about `axis`.
   void one_axis(const mechanism::Vector3d &axis);
-  /// a of the first body stays at right angles to b of the second, to which it is so as described.
+  /// a of the first body remains perpendicular to b of the second; they must be so in the reference configuration.
   void at_right_angles(const mechanism::Vector3d &a, const mechanism::Vector3d &b, const std::string &name);
   void distance(const JointRequest &joint);
   /// The coordinate of body 2 is `factor` times that of body 1: angle of a rotor, displacement of a slider ...
   void gear(double factor);
 
-  /// Leaves out the measures that none of the equations feels in any position, such as those across the plane of a
-  /// mechanism: the fewer there are, the cheaper is a step.
+  /// Removes the measures that no equation depends on in any position, such as those normal to the plane of a
+  /// mechanism: fewer measures make a step cheaper.
   void leave_out_idle(Pair &pair);
 
-  /// Where both bodies move along the same direction, their difference does for the two: a pin between planar bodies
-  /// has four measures, not six.
+  /// If both bodies move along the same direction, replaces their two measures by the difference: a pin between planar
+  /// bodies has four measures, not six.
   void join_translations(Pair &pair);
 
 private:

@@ -144,7 +144,7 @@ bool turns_far(const coupling::Body *body)
                   body->kind == coupling::BodyKind::rigid);
 }
 
-/// A motion that can be held: its gradient does not change, so that it is one measure of the machine.
+/// The motion as a single measure of the machine, for friction that can stick: its gradient must be constant.
 coupling::Measure constant_motion(const Pair &pair, const RubbingMotion &rubbing)
 {
   using coupling::operator+, coupling::operator*; // a Measure is a plain vector, so the namespace does not tell

@@ -13,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Names that a measure takes its motions from; places and bodies of the other types are no measures.
+/// Names in a measure that refer to other measures; markers and bodies are not measures.
 std::vector<std::string> named_by(const SceneTable &measure)
 {
   std::vector<std::string> names;
@@ -80,11 +80,10 @@ private:
 };
 
 /**
- * The order in which tables [measure.NAME] can be read: a sum or a position function after the measures that it names;
- * otherwise that of the file.
- *
+ * The order in which tables [measure.NAME] can be read: a sum or a position function follows the measures that it
+ * names; the other measures keep the order of the file.
  * @return indices of `measures`
- * @throws std::invalid_argument for a measure that is defined by itself, with the names of the cycle
+ * @throws std::invalid_argument for a circular definition, with the names of the cycle
  */
 std::vector<std::size_t> reading_order(const std::vector<SceneTable> &measures)
 {
@@ -144,7 +143,7 @@ MeasureRequest read_measure(const SceneTable &any, const Names &names)
   return measure;
 }
 
-/// @param any  whose keys of other types are refused in words
+/// @param any  its keys of other types are rejected with an explanation
 JointRequest read_joint(const SceneTable &any, const Names &names)
 {
   const JointType &type = type_of(any, joint_types());

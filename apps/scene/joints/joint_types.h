@@ -9,20 +9,20 @@ namespace gestell::apps
 const std::vector<JointType> &joint_types();
 const JointType              &joint_type(const std::string &name);
 
-/// What a type of measures is.
+/// A type of measures.
 struct MeasureType
 {
   std::string      name, does, signals;
-  std::vector<Key> keys; ///< `type` among them
+  std::vector<Key> keys; ///< including `type`
 
-  MeasureRequest (*read)(const SceneTable &table, const Names &names); ///< without name and place
+  MeasureRequest (*read)(const SceneTable &table, const Names &names); ///< without name and location
 };
 const std::vector<MeasureType> &measure_types();
 
 /// Keys of [place.NAME].
 const std::vector<Key> &place_keys();
 
-/// Reads all [place.NAME] and [measure.NAME] and makes them known to `names`.
+/// Reads all [place.NAME] and [measure.NAME] and adds them to `names`.
 void read_places(const SceneTable &scene, Names &names, Scene &result);
 
 /// Reads all [joint.NAME] into the scene.

@@ -19,7 +19,7 @@ using Carrier = mechanism::RelativeMeasure::Carrier;
 
 constexpr const char *measure_signals = "`value`, `rate`, `acceleration`";
 
-/// Of two places, with the directions that its keys fill.
+/// Reads a measure of two points, with the directions from its keys.
 MeasureRequest read_between(const SceneTable &table, const Names &names, Form form, const std::string &unit)
 {
   auto measure   = table.filled<MeasureRequest>();
@@ -32,7 +32,7 @@ MeasureRequest read_between(const SceneTable &table, const Names &names, Form fo
   return measure;
 }
 
-/// What the direction of `along` turns with.
+/// Body that carries the direction of `along`.
 Carrier read_carrier(const SceneTable &table, const Names &names, const MeasureRequest &along)
 {
   if (!table.has("carried_by"))
@@ -67,7 +67,7 @@ MeasureRequest read_inclination(const SceneTable &table, const Names &names)
   return line;
 }
 
-/// Of bodies that do not turn freely a sum of rotations.
+/// A sum of rotations, unless a body is a free spatial one.
 MeasureRequest read_angle(const SceneTable &table, const Names &names)
 {
   MeasureRequest     angle = read_between(table, names, Form::angle, "rad");

@@ -1,4 +1,4 @@
-// Joints that hold a point of two bodies together.
+// Joints that connect two bodies in a point.
 
 #include "apps/scene/joints/joint_friction.h"
 #include "apps/scene/joints/joint_keys.h"
@@ -34,7 +34,7 @@ void refuse_points(const SceneTable &table, const Names &names, const JointReque
     throw table.error("type", "needs directions on both bodies, but a point has none; use a spherical joint");
 }
 
-/// Of bodies that can turn about their own axis only.
+/// For bodies that can rotate only about their own axis.
 void check_own_axis(const SceneTable &table, const Names &names, const JointRequest &joint)
 {
   const Vector3 axis = table.direction("axis");
@@ -46,7 +46,7 @@ void check_own_axis(const SceneTable &table, const Names &names, const JointRequ
   }
 }
 
-/// Of two bodies that turn about their own axis only.
+/// For two bodies that can rotate only about their own axis.
 void check_one_axis(const SceneTable &table, const Names &names, const JointRequest &joint)
 {
   const BodyRequest *first = names.find_body(joint.from.marker), *second = names.find_body(joint.to.marker);

@@ -31,7 +31,7 @@ void join_path_and_angle(JointRequest &joint, const MeasureRequest &along, doubl
   joint.measure.unit  = "m";
 }
 
-/// A body that turns about its own axis turns about one askew to it by no angle.
+/// A body that rotates about its own axis has no angle about a skew one.
 void check_no_skew_axis(const SceneTable &table, const Names &names, const std::string &marker, const Vector3 &axis)
 {
   const BodyRequest *body = names.find_body(marker);

@@ -35,7 +35,7 @@ bool counts_shaft_turns(const Expression &e)
   return e.counts == Counts::shaft_turns;
 }
 
-/// What leaves turns of a shaft what they are: a plain number, a time.
+/// Whether a factor leaves shaft revolutions unchanged: a plain number, a time.
 bool leaves_turns(const Expression &e)
 {
   return e.counts <= Counts::minutes && e.counts != Counts::pi && equal({e.dimension[0], e.dimension[1], 0.}, {});
@@ -64,8 +64,8 @@ Dimension multiple(Dimension d, double factor)
   return d;
 }
 
-/// What a and b measure in common, in the place of a formula that is made of both.  `verb` and `preposition` name the
-/// operation: adds b to a.
+/// Common dimension of a and b, for a formula that combines both.  `verb` and `preposition` name the operation: adds b
+/// to a.
 Expression alike(const Expression &a, const Expression &b, const std::string &verb, const std::string &preposition)
 {
   const bool a_nothing = a.is_zero() && equal(a.dimension, {}); // zero of anything is zero
@@ -73,7 +73,7 @@ Expression alike(const Expression &a, const Expression &b, const std::string &ve
   if (a.checked && b.checked && !a_nothing && !b_nothing && !equal(a.dimension, b.dimension))
     fail(verb + " " + describe(b.dimension) + " " + preposition + " " + describe(a.dimension) +
          "; both must be of one kind");
-  // The one whose dimension is known tells that of both.
+  // The operand with a known dimension determines the dimension of the result.
   Expression c = a_nothing || (!a.checked && b.checked && !b_nothing) ? b : a;
   c.counts     = joined(a.counts, b.counts);
   if (counts_shaft_turns(a) == counts_shaft_turns(b) || a.is_zero() || b.is_zero())

@@ -9,7 +9,7 @@
 namespace gestell::apps
 {
 
-/// What the parser reads: a value, or a formula of variables, in SI units, with what it measures.
+/// Result of the parser: a value, or a formula of variables, in SI units, with its dimension.
 struct Expression
 {
   mechanism::Formula formula;
@@ -28,15 +28,15 @@ struct Expression
   bool is_zero() const { return is_value() && formula.constant() == 0.; }
 };
 
-// Arithmetic with dimensions.  It throws std::invalid_argument with what is wrong, "adds kg to m; ...", and leaves it
-// to the parser to say where.
+// Arithmetic with dimensions.  Throws std::invalid_argument with the error, "adds kg to m; ..."; the parser adds its
+// position.
 
 Expression added(const Expression &a, const Expression &b);
 Expression subtracted(const Expression &a, const Expression &b);
 Expression multiplied(const Expression &a, const Expression &b);
 Expression divided(const Expression &a, const Expression &b);
 Expression negated(const Expression &a);
-/// a per `minutes`, a number of turns of a shaft in a time.
+/// a per `minutes`: a number of shaft revolutions in a time.
 Expression shaft_turns(const Expression &a, const Expression &minutes);
 Expression raised(const Expression &a, const Expression &exponent);
 
@@ -45,7 +45,7 @@ Expression compared(const Expression &a, const Expression &b);
 Expression chosen(const Expression &argument, mechanism::Relation relation, const Expression &then,
                   const Expression &otherwise);
 
-/// The formula of an expression that must be of `kind`, as value_as() for values.
+/// The formula of an expression that must be of `kind`; like value_as() for values.
 mechanism::Formula formula_as(const Expression &expression, const Kind &kind, const std::string &text);
 
 /// Value of the function; `name` is one of function_names() other than "if".

@@ -20,7 +20,7 @@ const std::map<std::string, mechanism::Relation> relations = {{">", mechanism::R
                                                               {"<", mechanism::Relation::below},
                                                               {"<=", mechanism::Relation::not_above}};
 
-/// A name that nothing has, and what it may have been meant for, the most likely first.
+/// An unknown name, with the names that may be intended, the most likely first.
 struct UnknownName
 {
   std::size_t              token;
@@ -47,7 +47,7 @@ public:
     return e;
   }
 
-  /// Reads `text` in the place of the token.
+  /// Replaces the token by `text`.
   void replace(std::size_t token, const std::string &text)
   {
     auto other = tokens_of(text);
@@ -64,7 +64,7 @@ public:
 private:
   // --- errors
 
-  /// Of parameters and variables.
+  /// Names of parameters and variables.
   std::vector<std::string> known_names() const
   {
     std::vector<std::string> known = names_;
@@ -75,7 +75,7 @@ private:
 
   [[noreturn]] void fail(const std::string &what) const { fail(what, next_); }
 
-  /// The result of `operation`; what it says against it is about the token.
+  /// The result of `operation`; its errors are about the token.
   template <typename Operation>
   Expression at(std::size_t token, Operation operation) const
   {
@@ -155,7 +155,7 @@ private:
     const auto unit = units().find(token(ahead + 1).text);
     return is("/", ahead) && unit != units().end() && equal(unit->second.dimension, {0, 0, 1});
   }
-  /// Of a name that is_unit().
+  /// For a name with is_unit().
   static const Quantity &unit_named(const std::string &name)
   {
     return units().count(name) ? units().at(name) : turn_units().at(name);
@@ -202,7 +202,7 @@ private:
     return a;
   }
 
-  /// The next factor is "min", "(min)", "(1 min)", or that of hours.
+  /// Whether the next factor is "min", "(min)", "(1 min)", or the same with hours.
   bool at_minute() const
   {
     const bool        inside = is("(");
@@ -306,7 +306,7 @@ private:
     return at(begin, [&] { return called(name, arguments); });
   }
 
-  /// if(a < b, then, otherwise), from behind its parenthesis.
+  /// Parses if(a < b, then, otherwise) after its parenthesis.
   Expression condition(std::size_t begin)
   {
     const Expression  a        = sum();
@@ -335,7 +335,7 @@ private:
     const Quantity one{1., {}, true, Counts::nothing};
     const auto     first   = next_;
     bool           divided = false, any = false;
-    Expression     e = number, group = one; ///< with the units, the units alone
+    Expression     e = number, group = one; ///< with the units; only the units
     number_with_unit_ = false;
     for (;;)
     {
@@ -362,7 +362,7 @@ private:
     return is_per_minute(group) ? at(first, [&] { return shaft_turns(number, apps::divided(one, group)); }) : e;
   }
 
-  /// "1/min", "min^-1", "1/min/s" without another unit count turns of a shaft.
+  /// "1/min", "min^-1", "1/min/s" without another unit count shaft revolutions.
   static bool is_per_minute(const Expression &group)
   {
     return group.counts == Counts::minutes && group.dimension[2] < 0. &&

@@ -10,7 +10,7 @@
 namespace gestell::apps
 {
 
-/// A name that varies in a formula; the i-th of a list is variable(i).
+/// A variable of a formula; the i-th of a list is variable(i).
 struct Variable
 {
   std::string name, meaning; ///< "u", "displacement"
@@ -24,11 +24,11 @@ using NameLookup = std::function<std::optional<Quantity>(const std::string &name
 /**
  * Reads an expression by the grammar of parse_quantity(), which is this one without variables.
  *
- * @param variables   at most mechanism::Formula::max_variables.  Where an operand is expected a variable comes before a
+ * @param variables   at most mechanism::Formula::max_variables.  In place of an operand a variable has priority over a
  *                    unit of the same name; a parameter of the same name makes its use an error.
- * @param parameters  value of a name, `names` all of them.
- * @param kind        what the expression must be of, for proposals in the place of an unknown unit; it is not checked.
- * @throws std::invalid_argument with the text, what is wrong, and at which character.
+ * @param parameters  returns the value of a name; `names` are all parameters.
+ * @param kind        required kind, for proposals if a unit is unknown; it is not checked.
+ * @throws std::invalid_argument with the text, the error, and its character position.
  */
 Expression parse_expression(const std::string &text, const std::vector<Variable> &variables,
                             const NameLookup &parameters, const std::vector<std::string> &names,

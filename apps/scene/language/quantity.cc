@@ -64,7 +64,7 @@ std::string with_article(const Kind &kind)
 namespace
 {
 
-/// Radians and turns are told apart.
+/// Distinguishes radians and revolutions.
 void check_counts(Counts counts, const Kind &kind, const std::string &needs_and_text)
 {
   const bool        radians = kind.refused == Counts::turns, hertz = kind.refused == Counts::radians;

@@ -9,15 +9,15 @@ namespace gestell::apps
 /// Exponents of metre, kilogram and second.  Angles are numbers: rad = 1.
 using Dimension = std::array<double, 3>;
 
-/// What a value counts.  Its dimension does not say whether radians or turns, a factor of 2 pi.
-/// Of two factors the later one here tells what the product counts.
+/// The unit of counting in a value.  Its dimension does not distinguish radians from revolutions, a factor of 2 pi.  Of
+/// two factors the one later in this list determines that of the product.
 enum class Counts
 {
   nothing,
-  pi,          ///< a number with pi in it
-  minutes,     ///< minutes or hours are in it: its inverse may count turns
+  pi,          ///< a number that contains pi
+  minutes,     ///< contains minutes or hours: its inverse may count revolutions
   turns,       ///< Hz
-  shaft_turns, ///< 1/min, rpm, r/min: turns of a shaft; the value is in rad/s, as a frequency it is divided by 2 pi
+  shaft_turns, ///< 1/min, rpm, r/min: shaft revolutions; the value is in rad/s, as a frequency it is divided by 2 pi
   radians      ///< rad, deg
 };
 
@@ -26,17 +26,17 @@ struct Quantity
 {
   double    value = 0.;
   Dimension dimension{};
-  bool      checked = true; ///< false: made from a plain number of [parameters], so of any dimension
+  bool      checked = true; ///< false: made from a plain number of [parameters], compatible with any dimension
   Counts    counts  = Counts::nothing;
 };
 
-/// What a key needs, in words and in exponents: {"length", "40 mm", {1, 0, 0}}.
+/// The kind of quantity that a key requires, as text and in exponents: {"length", "40 mm", {1, 0, 0}}.
 struct Kind
 {
   std::string name, example;
   Dimension   dimension;
-  Counts      refused     = Counts::nothing; ///< where radians are counted turns, of a frequency radians
-  int         metre_range = 0;               ///< so many more powers of a metre are right as well (matrices)
+  Counts      refused     = Counts::nothing; ///< revolutions for a value in radians, radians for a frequency
+  int         metre_range = 0;               ///< number of additional powers of a metre that are accepted (matrices)
 };
 
 namespace kind
@@ -71,24 +71,24 @@ inline const Kind damping_entry{"entry of a damping matrix", "200 kN s/m", {0, 1
 inline const Kind stiffness_entry{"entry of a stiffness matrix", "3200 kN/mm", {0, 1, -2}, Counts::nothing, 2};
 } // namespace kind
 
-/// Exponents are equal up to rounding.
+/// Whether exponents are equal up to rounding.
 bool equal(const Dimension &a, const Dimension &b);
 
 /// "kg m^2/s^2", or "a plain number".
 std::string describe(const Dimension &dimension);
 std::string with_article(const Kind &kind); ///< "a length", "an angle"
 
-/// Value of `quantity` if it is of `kind`, in the unit of the kind: of turns of a shaft rad/s or, as a frequency, Hz.
+/// Value of `quantity` if it is of `kind`, in the unit of the kind: for shaft revolutions rad/s or, as a frequency, Hz.
 /// @throws std::invalid_argument: needs a length such as "40 mm", got 3 kg.
 double value_as(const Quantity &quantity, const Kind &kind, const std::string &text);
 
-/// @param is_zero  zero of anything is of every kind; `shown`: the quantity as messages tell it behind its text, "3
-/// kg".
+/// @param is_zero  a zero with any unit is of every kind; `shown`: the quantity as printed after its text in messages,
+/// "3 kg".
 /// @throws std::invalid_argument if `quantity` is not of `kind`
 void check_kind(const Quantity &quantity, bool is_zero, const Kind &kind, const std::string &text,
                 const std::string &shown);
 
-/// 1, or for turns of a shaft that are needed as a frequency 1 / 2 pi.
+/// 1, or 1 / 2 pi for shaft revolutions that are required as a frequency.
 double per_radian(Counts counts, const Kind &kind);
 
 } // namespace gestell::apps

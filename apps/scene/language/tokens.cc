@@ -19,7 +19,7 @@ bool is_digit(unsigned char c)
   return std::isdigit(c);
 }
 
-/// Characters beyond ASCII that engineers type, and what they stand for.
+/// Common non-ASCII characters, and their meaning.
 std::string in_ascii(const std::string &character)
 {
   static const std::map<std::string, std::string> meanings = {
@@ -30,7 +30,7 @@ std::string in_ascii(const std::string &character)
   return found == meanings.end() ? character : found->second;
 }
 
-/// Raised digits and signs as they stand on the line; empty for others.
+/// The plain character of a superscript digit or sign; empty for other characters.
 std::string lowered(const std::string &character)
 {
   static const std::map<std::string, std::string> raised = {{"⁻", "-"}, {"⁺", "+"}, {"⁰", "0"}, {"¹", "1"},
@@ -46,7 +46,7 @@ struct Character
   std::string typed, meaning;
 };
 
-/// At `begin`, or an empty one behind the end.
+/// The character at `begin`; empty past the end of the text.
 Character character_at(const std::string &text, std::size_t begin)
 {
   if (begin >= text.size())

@@ -21,15 +21,15 @@ struct Token
   int         place = 0; ///< of its first character in the text, from 1
 };
 
-/// Tokens of an expression: numbers, names, and one of + - * / ^ ( ) , < <= > >=; at the end one of kind `end`.  Signs
-/// beyond ASCII that engineers type stand for these: "·" and "×" for *, "⁻²" for ^-2, "π" for pi, either mu for "µ".
+/// Tokens of an expression: numbers, names, and one of + - * / ^ ( ), < <= > >=; at the end one of kind `end`.  Common
+/// non-ASCII signs are accepted: "·" and "×" for *, "⁻²" for ^-2, "π" for pi, either mu for "µ".
 /// @throws std::invalid_argument at any other character.
 std::vector<Token> tokens_of(const std::string &text);
 
 /// True for a letter or underscore followed by letters, digits, underscores.
 bool is_identifier(const std::string &name);
 
-/// " (character 12)", as messages end that are about a place in a text.
+/// " (character 12)", the end of messages with a position in a text.
 std::string character(int place);
 
 } // namespace gestell::apps

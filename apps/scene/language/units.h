@@ -9,16 +9,16 @@
 namespace gestell::apps
 {
 
-/// All units of scene files by name, as SI values.
+/// All units of scene files by name, with their SI values.
 const std::map<std::string, Quantity> &units();
 
 std::vector<std::string> unit_names();
 
-/// "r", "rev", "U": a turn of a shaft; a unit in front of "/min" and other times only, where it is nothing else.
+/// "r", "rev", "U": a revolution of a shaft; a unit only before "/min" and other times, if the name is free.
 const std::map<std::string, Quantity> &turn_units();
 
-/// Units that a name which is none may have been meant for, the most likely first: "mm2" is mm^2, "Nmm" is N mm; and
-/// those that differ by a slip of the pen.
+/// Proposals for a name that is not a unit, the most likely first: mm^2 for "mm2", N mm for "Nmm"; then units with a
+/// similar spelling.
 std::vector<std::string> units_meant(const std::string &name);
 
 } // namespace gestell::apps

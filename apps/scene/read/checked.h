@@ -5,7 +5,7 @@
 namespace gestell::apps
 {
 
-/// Runs `make`, and heads what the element says against its parameters with the place of the table.
+/// Runs `make`, and adds the location of the table to its errors about parameters.
 template <typename Make>
 auto checked(const SceneTable &table, Make make)
 {

@@ -10,11 +10,11 @@
 namespace gestell::apps
 {
 
-/// The things of a scene that elements refer to by name, known before any frame is made.
+/// The objects of a scene that elements refer to by name, known before the frame is made.
 class Names
 {
 public:
-  /// @param interfaces  of the frame; any_interface: they are only known once a file is read.
+  /// @param interfaces  of the frame; any_interface: they are unknown until a file is read.
   Names(const std::vector<std::string> &interfaces, bool any_interface);
 
   void add_body(const BodyRequest &body) { bodies_.push_back(body); }
@@ -25,7 +25,7 @@ public:
   /// Marker named by a key of `table`: "ground", a body, or "frame.crown".
   std::string marker(const SceneTable &table, const std::string &key) const;
   std::string marker(const SceneTable &table, const std::string &key, const std::string &fallback) const;
-  /// Point named by a key of `table`: a [place], or what marker() knows; `at` in the table tells the point.
+  /// Point named by a key of `table`: a [place], or an object that marker() knows; `at` in the table gives the point.
   PlaceRequest place(const SceneTable &table, const std::string &key, const std::string &at = "at") const;
   PlaceRequest place(const SceneTable &table, const std::string &key, const std::string &at,
                      const std::string &fallback) const;
@@ -33,7 +33,7 @@ public:
   const MeasureRequest &measure(const SceneTable &table, const std::string &key) const;
   const MeasureRequest *find_measure(const std::string &name) const; ///< null if there is none
 
-  /// A coordinate of a body that a start may give, or its rate: its name, and whether it is an angle.
+  /// A coordinate of a body, or its rate, that an initial state may give: its name, and whether it is an angle.
   struct Coordinate
   {
     std::string name;
@@ -41,7 +41,7 @@ public:
   };
   std::vector<Coordinate> coordinates(bool rates) const;
 
-  /// Body of that kind named by a key of `table`.
+  /// Body of the kind `kind` named by a key of `table`.
   const BodyRequest &body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const;
 
   const BodyRequest              *find_body(const std::string &name) const; ///< null if there is none
@@ -56,7 +56,7 @@ private:
   std::vector<MeasureRequest>         measures_;
 };
 
-/// Refuses names that cannot be referred to: empty, with dots, "frame", "ground".
+/// Rejects names that cannot be referenced: empty, with dots, "frame", "ground".
 void check_thing_name(const SceneTable &table);
 
 } // namespace gestell::apps

@@ -7,15 +7,15 @@
 namespace gestell::apps
 {
 
-/// Stiffness, exponent and dissipation, which every contact has; the dissipation also by `restitution` at an
+/// Reads stiffness, exponent and dissipation of a contact; the dissipation is also computed from `restitution` at an
 /// `impact_speed`.
 /// @param turns  it acts on an angle
 mechanism::Clearance::Parameters read_contact(const SceneTable &table, bool turns);
 
-/// Keys that read_contact() asks for.
+/// Keys of read_contact().
 std::vector<Key> contact_keys();
 
-/// The key that read_sliding_friction() asks for.
+/// The key of read_sliding_friction().
 Key sliding_friction_key();
 
 /// `friction`: a coefficient, or a table `{ coefficient, speed, static, stribeck_speed, stribeck_exponent }`; without

@@ -32,7 +32,7 @@ void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::Cub
   };
   const auto   by_f  = [](const auto &a, const auto &b) { return a.f < b.f; };
   const auto   ends  = std::minmax_element(points.begin(), points.end(), by_f);
-  const double whole = ends.second->f - ends.first->f; // of what rows range over: beside a level stretch
+  const double whole = ends.second->f - ends.first->f; // range of all rows, the scale for a level stretch
   double       worst = 0., at = 0., by = 0.;
   for (int i = 0; i < n; ++i)
   {
@@ -51,7 +51,7 @@ void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::Cub
         worst = beyond / scale, at = x, by = beyond;
     }
   }
-  constexpr double seen_overshoot = 0.05; // of a spline beyond its rows, by the steps between rows beside it
+  constexpr double seen_overshoot = 0.05; // reported overshoot of a spline, by the steps between rows there
   if (worst <= seen_overshoot)
     return;
   std::ostringstream text;
@@ -97,7 +97,7 @@ void close(const SceneTable &table, const PositionFunction::Period &period,
     throw table.error("table", "goes further than one period; give the rows of one, from the first on");
   if (last.x >= end - as_written * period.length)
   {
-    double largest = std::abs(period.rise); // a last row may be the rounding of zero, as that of sin 2 pi is
+    double largest = std::abs(period.rise); // a last row may be zero only up to rounding, as sin 2 pi is
     for (const auto &point : points)
       largest = std::max(largest, std::abs(point.f));
     if (std::abs(last.f - value) > as_written * largest)
@@ -157,7 +157,7 @@ void refuse_jumps(const SceneTable &table, const PositionFunction &f, const Kind
   if (!table.has("function") || !table.has("period"))
     return; // how far it is used is not known; where it jumps the run ends
   const double period = table.positive("period", x), begin = table.number("begin", x, 0.);
-  const double aside = 1e-3 * period; // kinks like to lie at the begin, and no step of the search should end on one
+  const double aside = 1e-3 * period; // kinks often lie at the start: no step of the search should end on one
   const auto   jump  = mechanism::first_jump(f, begin - M_SQRT1_2 * aside, begin + period - M_SQRT1_2 * aside);
   if (!jump)
     return;

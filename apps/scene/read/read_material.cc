@@ -11,12 +11,12 @@ namespace gestell::apps
 namespace
 {
 
-/// What solids have, and the units a number outside is usually meant in.
+/// The range of values of solids, and the other units in which a number outside this range is probably given.
 struct Plausible
 {
   const char *unit;
-  double      least, most; ///< beyond these no solid is
-  double      low, high;   ///< beyond these hardly any structure is
+  double      least, most; ///< outside: no solid
+  double      low, high;   ///< outside: hardly any structure
   const char *below, *above;
   struct OtherUnit
   {
@@ -46,7 +46,7 @@ const Plausible &plausible_modulus()
   return modulus;
 }
 
-/// The unit in which the number is that of a common structural material.
+/// Hint at the unit in which the number would be the value of a common structural material.
 std::string likely_unit(const Plausible &range, double value, double common_low, double common_high)
 {
   for (const auto &[name, factor] : range.others)
@@ -60,7 +60,7 @@ std::string likely_unit(const Plausible &range, double value, double common_low,
   return {};
 }
 
-/// What speaks against a value; empty if nothing does.
+/// Description of an implausible value; empty for a plausible one.
 std::string suspicion(const Plausible &range, double value, double common_low, double common_high)
 {
   if (value >= range.low && value <= range.high)
@@ -71,8 +71,9 @@ std::string suspicion(const Plausible &range, double value, double common_low, d
   return text.str();
 }
 
-/// Plain numbers no solid has, or hardly any and a common one in another unit, are refused as a mistaken unit; with a
-/// unit beside them they are meant, and only warned of.  @return whether nothing speaks against the value
+/// Refuses a plain number that no solid has, or that is rare but common in another unit: the unit is probably wrong. A
+/// number with a unit only causes a warning.
+/// @return whether the value is plausible
 bool check_plausible(const SceneTable &table, const std::string &key, const Plausible &range, double value,
                      double common_low, double common_high)
 {

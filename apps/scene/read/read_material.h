@@ -13,25 +13,25 @@ namespace gestell::apps
 /// A material of a frame or a body under `key`: a table { E, nu, rho }, the name of a [material.NAME] of the scene, or
 /// of a built-in one; `fallback` (empty: none) if it is missing.
 ///
-/// A modulus or density no solid has is refused as a plain number, with the unit that was probably meant; written with
-/// its unit it is only warned of.
+/// A modulus or density outside the range of solids is rejected if it is a plain number, with the unit that was
+/// probably intended; if it is written with a unit, only a warning is added.
 fem::Material read_material(const SceneTable &table, const SceneTable &scene, const std::string &key = "material",
                             const std::string &fallback = "steel");
 
-/// Of [material.NAME] and of a table in its place; `material` of a frame or a body.
+/// Keys of [material.NAME] and of a table in its place; `material` of a frame or a body.
 const std::vector<Key> &material_keys();
 Key                     material_key();
 
-/// `density` of a body, judged as that of a material.
+/// Reads `density` of a body, with the checks of a material.
 double read_plausible_density(const SceneTable &table);
 
-/// What speaks against a density [kg/m^3], with the unit that was probably meant; empty for those that solids have.
+/// Why a density [kg/m^3] is implausible, with the unit that was probably intended; empty in the range of solids.
 std::string suspect_density(double density);
 
-/// Warns if a weighed mass and a volume [m^3] make a density that no solid has: the unit of one of them is wrong.
+/// Warns if a measured mass and a volume [m^3] give a density outside the range of solids: a unit is wrong.
 void warn_of_density(const SceneTable &table, double mass, double volume);
 
-/// `materials` of a frame, by name of the solid.
+/// Reads `materials` of a frame, by name of the solid.
 std::vector<std::pair<std::string, fem::Material>> read_solid_materials(const SceneTable &frame,
                                                                         const SceneTable &scene);
 

@@ -8,10 +8,10 @@
 namespace gestell::apps
 {
 
-/// A motion over time: `speed`, constant with a `brake` or a profile, or `function` or `table` of the time.
+/// Reads a motion over time: `speed`, constant with a `brake` or a profile, or `function` or `table` of time.
 std::shared_ptr<const mechanism::MotionLaw> read_motion(const SceneTable &table, bool turns);
 
-/// Keys that it asks for.
+/// Keys of read_motion().
 std::vector<Key> motion_law_keys();
 
 } // namespace gestell::apps

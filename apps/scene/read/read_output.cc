@@ -41,7 +41,7 @@ void require_signals(const SceneTable &stages, const Scene &scene)
 
 } // namespace
 
-/// Of [output.stages].
+/// Keys of [output.stages].
 const std::vector<Key> &stage_keys()
 {
   static const std::vector<Key> keys = {
@@ -57,8 +57,8 @@ const std::vector<Key> &stage_keys()
   return keys;
 }
 
-/// [output.stages]: between which events the run has which stages, and in which signals the last one rings.  `result`
-/// has its signals and switches already, or reads them later: borders are looked for when the run is over.
+/// [output.stages]: names and border events of the stages of the run, and the signals whose ringing in the last stage
+/// is analysed. The signals and switches of `result` may be read later: the borders are searched after the run.
 /// @throws std::invalid_argument for numbers of names and borders that do not fit, and unknown signals
 void read_stages(const SceneTable &output, Scene &scene)
 {
@@ -74,7 +74,7 @@ void read_stages(const SceneTable &output, Scene &scene)
   if (stages.has("ringing"))
     scene.stages.ringing = stages.texts("ringing");
   require_signals(stages, scene);
-  constexpr int most_ringing_modes = 12; // the pencil of noisy rows tells no more apart
+  constexpr int most_ringing_modes = 12; // the matrix pencil of noisy rows resolves no more
   if (scene.stages.modes < 1 || scene.stages.modes > most_ringing_modes)
     throw stages.error("modes", "needs a number between 1 and " + std::to_string(most_ringing_modes));
 }
@@ -82,7 +82,7 @@ void read_stages(const SceneTable &output, Scene &scene)
 namespace
 {
 
-constexpr const char *the_stress = "stress"; ///< itself, beside the names of signals
+constexpr const char *the_stress = "stress"; ///< the stress itself, in addition to names of signals
 
 void require_stresses(const SceneTable &stress, const Scene &scene)
 {
@@ -148,7 +148,7 @@ void read_extremes(const SceneTable &stress, const std::string &key, Scene &scen
 
 } // namespace
 
-/// Of [output.stress].
+/// Keys of [output.stress].
 const std::vector<Key> &stress_keys()
 {
   static const std::vector<Key> keys = {
@@ -165,9 +165,9 @@ const std::vector<Key> &stress_keys()
   return keys;
 }
 
-/// [output.stress]: at which instants stresses are told.  Asks the frame for them and the run for the states; `result`
-/// has its frame, run and signals already.
-/// @throws std::invalid_argument for a frame that knows no stresses, instants outside the run and unknown signals.
+/// [output.stress]: the instants at which stresses are computed. Requests stresses from the frame and states from the
+/// run; `result` already has its frame, run and signals.
+/// @throws std::invalid_argument for a frame without stresses, instants outside the run and unknown signals.
 void read_stress(const SceneTable &output, Scene &scene)
 {
   if (!output.has("stress"))

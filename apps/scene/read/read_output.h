@@ -6,10 +6,10 @@
 namespace gestell::apps
 {
 
-/// [output]: signals, and the times between rows and pictures.
+/// Reads [output]: signals, and the times between rows and pictures.
 void read_output(const SceneTable &scene, Scene &result);
 
-/// Of [output]; of a signal with `from` in it; of [output.stress] and [output.stages].
+/// Keys of [output]; of a signal with `from` in it; of [output.stress] and [output.stages].
 const std::vector<Key> &output_keys();
 const std::vector<Key> &watched_signal_keys();
 const std::vector<Key> &stress_keys();

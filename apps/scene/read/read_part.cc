@@ -35,7 +35,7 @@ void place(fem::CadBody &part, const coupling::Placement &placement)
   }
 }
 
-/// Refuses what the file tells already; what it does not tell, the density, must be given once.
+/// Refuses keys whose values follow from the file; the density does not, and must be given once.
 void check_keys(const SceneTable &table, coupling::BodyKind kind)
 {
   const auto refuse = [&](const std::string &key, const std::string &why)
@@ -104,7 +104,8 @@ std::string found(const BodyRequest &body, const CadBodyRequest &part, const std
   return text.str();
 }
 
-/// What reads CAD; a build without finite elements has none.
+/// The service that reads CAD.
+/// @throws an error at `cad` in a build without finite elements
 coupling::FrameService &service(const SceneTable &table)
 {
   try

@@ -7,8 +7,8 @@ namespace gestell::apps
 {
 
 /**
- * Mass, inertia and position of a body from the CAD file or mesh that its table names: `cad`, `unit`, `placement`, and
- * one of `material`, `density` and `mass`.  Of a rotor the inertia is about its axis through `position`, by default
+ * Reads mass, inertia and position of a body from the CAD file or mesh named in its table: `cad`, `unit`, `placement`,
+ * and one of `material`, `density` and `mass`.  The inertia of a rotor is about its axis through `position`, by default
  * through the centre of mass.
  *
  * @param table  of the body, with keys of any type
@@ -17,11 +17,11 @@ namespace gestell::apps
  */
 void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &body, fem::Scripts scripts);
 
-/// `placement`: where the file's coordinates lie, x = at + Q x_file; turned about an `axis`, of parts of a frame
-/// mirrored before.
+/// Reads `placement`, the transformation from the file's coordinates: x = at + Q x_file; Q is a rotation about an
+/// `axis`, for parts of a frame with a reflection before.
 coupling::Placement read_placement(const SceneTable &table);
 
-/// Keys of it beside `mass`, `position` and those that the file tells.
+/// Keys of read_part() except `mass`, `position` and values from the file.
 std::vector<Key> part_keys();
 
 } // namespace gestell::apps

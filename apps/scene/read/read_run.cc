@@ -59,7 +59,7 @@ void refuse_keys_of_other_methods(const SceneTable &run, const IntegrationMethod
     }
 }
 
-/// Heads what check_method() says against a parameter with the place of its key.
+/// Reports errors of check_method() at the key of the parameter.
 void check_parameters(const SceneTable &run, const MethodOptions &method)
 {
   try
@@ -140,7 +140,7 @@ std::vector<std::string> method_names()
   return names;
 }
 
-/// Keys that a method alone has.
+/// Keys that only one method has.
 std::vector<Key> parameter_keys()
 {
   std::vector<Key> keys;
@@ -222,7 +222,7 @@ RunRequest read_run(const SceneTable &scene, bool in_modes)
   RunRequest run;
   run.place = scene.place();
   if (!scene.has("run"))
-    return run; // modes and reduce need none; require_run() tells those who do
+    return run; // modes and reduce need no run; require_run() refuses it for analyses that do
   const SceneTable table = scene.table("run").declared(run_keys());
   run.place              = table.place();
   auto &o                = run.options;

@@ -6,10 +6,10 @@
 namespace gestell::apps
 {
 
-/// [run]: the method with its parameters, times, events.  Without it nothing is run: `modes` and `reduce` need none.
+/// Reads [run]: the method with its parameters, times, events.  It is optional: `modes` and `reduce` do not need it.
 RunRequest read_run(const SceneTable &scene, bool in_modes);
 
-/// Of [run].
+/// Keys of [run].
 const std::vector<Key> &run_keys();
 
 /// "0.5 s", for messages.

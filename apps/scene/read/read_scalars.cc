@@ -84,7 +84,7 @@ ScalarRequest read_scalar(const SceneTable &table, const std::string &key, const
                               : "there is no measure or coordinate '" + name + "'" + suggestion(name, valid));
 }
 
-/// Angles that jump by a turn are no part of a sum, nor of a function that is not the same after it.
+/// Refuses angles that jump by a full turn in sums and in functions that are not periodic.
 static void refuse_wrapping(const SceneTable &table, const std::string &key, const ScalarRequest &scalar)
 {
   using Form = mechanism::RelativeMeasure::Form;
@@ -120,7 +120,7 @@ MeasureRequest read_position_function(const SceneTable &table, const Names &name
   return measure;
 }
 
-/// Terms of one motion count together: of each marker the sum of weight * axis, of a measure of two places its weight.
+/// Whether all terms cancel: for each marker the sum of weight * axis, for a measure of two points its weight.
 static bool cancel(const std::vector<TermRequest> &terms)
 {
   constexpr double                                        rounding = 1e-14; // of factors that are written by decimals
@@ -148,7 +148,7 @@ MeasureRequest read_sum(const SceneTable &table, const Names &names)
   {
     SceneTable    table;
     ScalarRequest y;
-    Quantity      factor; ///< a plain number takes the unit that makes its term fit
+    Quantity      factor; ///< a plain number gets the unit that makes its term fit
   };
   std::vector<Part> parts;
   MeasureRequest    measure;

@@ -31,7 +31,7 @@ ElementRequest element_of(const LinearRequest &spring)
   return element;
 }
 
-/// Takes what has this name out of the linear base system, where nothing can be switched, and makes it an element.
+/// Moves the request of this name from the linear base system, where nothing can be switched, to the elements.
 template <typename Requests>
 void take_out(const std::string &name, Requests &requests, Scene &scene)
 {
@@ -80,7 +80,7 @@ std::shared_ptr<const ProfileKeys> levels_of(const JointRequest &joint)
   return std::make_shared<ProfileKeys>(joint.measure.unit == "rad" ? speed_profile() : path_profile());
 }
 
-/// Only what the element knows, so that the keys of other orders are not asked for.
+/// Refuses an order that the element does not know, before keys of other orders are required.
 void check_known(const SceneTable &table, const ElementRequest &element, const std::string &order)
 {
   const auto known = command_names(*element.element);
@@ -88,7 +88,7 @@ void check_known(const SceneTable &table, const ElementRequest &element, const s
     throw table.error("order", "'" + element.name + "' knows no order '" + order + "'; it obeys " + listed(known));
 }
 
-/// What cannot obey, and why.
+/// Refuses things that obey no orders, with the reason.
 void refuse_unmoved(const SceneTable &table, const std::string &name, const std::string &order, const Scene &scene)
 {
   for (const PointMassRequest &mass : scene.point_masses)
@@ -102,7 +102,7 @@ void refuse_unmoved(const SceneTable &table, const std::string &name, const std:
               " joint, which always holds; where it shall let go, use a \"clutch\" or a \"spring-damper\" instead");
 }
 
-/// What has no element of its name is a joint whose motion obeys orders.
+/// A name that no element has must be that of a joint whose motion obeys the order.
 void check_joint(const SceneTable &table, const std::string &name, const std::string &order, const Scene &scene)
 {
   std::vector<std::string> obeying;
@@ -236,7 +236,7 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
   return own;
 }
 
-/// Each switch waits for one that there is, and not, by way of others, for itself.
+/// Checks that the chain of switches `after` each other exists and is not circular.
 void check_chain(const SceneTable &table, const std::vector<SwitchRequest> &switches)
 {
   std::vector<std::string> names;
@@ -260,7 +260,7 @@ void check_chain(const SceneTable &table, const std::vector<SwitchRequest> &swit
 namespace
 {
 
-/// Of one order.
+/// Keys of one order.
 std::vector<Key> order_keys()
 {
   const ProfileKeys level = level_profile(kind::number, "1"), speed = path_profile();

@@ -7,13 +7,13 @@
 namespace gestell::apps
 {
 
-/// Two directions at right angles under `key`, and the third one that goes with them, as columns.
+/// Reads two perpendicular directions from `key`, and returns them with the third one as columns.
 Eigen::Matrix3d read_axes(const SceneTable &table, const std::string &key);
 
-/// `principal_axes`, which goes with three moments.
+/// `principal_axes`, used together with three moments.
 Key principal_axes_key();
 
-/// `inertia` [kg m^2] in global axes: three moments about these or about `principal_axes`, or the tensor itself.
+/// Reads `inertia` [kg m^2] in global axes: three moments about these or about `principal_axes`, or the tensor itself.
 Eigen::Matrix3d read_tensor(const SceneTable &table);
 
 /// A value for all directions or `[x, y, z]`, none below zero; zero by default.

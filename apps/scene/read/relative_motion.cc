@@ -20,7 +20,7 @@ const BodyRequest *leading_body(const BodyRequest *from, const BodyRequest *to, 
   return to && to->kind == kind ? to : nullptr;
 }
 
-/// Along a constant direction: of bodies as such, or of points on them, which move by their rotation too.
+/// Displacement along a constant direction, of bodies or of points on them, which also move by rotation.
 RelativeMotion displacement(const PlaceRequest &from, const PlaceRequest &to, const Vector3 &direction)
 {
   if (!from.at && !to.at)
@@ -33,7 +33,7 @@ RelativeMotion displacement(const PlaceRequest &from, const PlaceRequest &to, co
   return {{}, false, "", std::make_shared<MeasureRequest>(along)};
 }
 
-/// What `to` names, or else what carries the shaft: there the motor pushes itself off.
+/// The body named by `to`, or else the carrier of the shaft, which receives the reaction of the motor.
 std::string stator_of(const SceneTable &table, const Names &names, const BodyRequest &shaft)
 {
   const std::string stator = names.marker(table, "to", shaft.carrier.empty() ? "ground" : shaft.carrier);

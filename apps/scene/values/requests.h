@@ -27,7 +27,7 @@ enum class FrameSource
 {
   none,
   geometry,    ///< CAD or mesh, made by the FrameService
-  parts,       ///< several of them, reduced one by one and joined
+  parts,       ///< several of them, reduced separately and joined
   matrices,    ///< M, B, C inline or from files
   reduced_file ///< a reduced frame saved by an earlier run
 };
@@ -46,15 +46,15 @@ struct FrameRequest
 struct ReductionRequest
 {
   std::string                method = "none"; ///< a name of coupling::Reductions
-  coupling::ReductionOptions options;         ///< of an unreduced frame those of its companion
+  coupling::ReductionOptions options;         ///< for an unreduced frame those of its companion
 
-  std::optional<coupling::SuperpositionOptions> superposition{}; ///< the machine moves in its modes
+  std::optional<coupling::SuperpositionOptions> superposition{}; ///< the machine is integrated in its modes
 
-  bool makes_frame = false; ///< a reduced one
+  bool makes_frame = false; ///< makes a reduced frame
   bool reduces() const { return makes_frame; }
 };
 
-/// The shape of a body from CAD, placed as the scene describes it.
+/// The shape of a body from CAD, in its position in the scene.
 struct CadBodyRequest
 {
   fem::CadBody shape;        ///< in the scene's coordinates; its inertia is for density one
@@ -62,12 +62,12 @@ struct CadBodyRequest
   std::string  found;        ///< for people: file, mass, centre of mass, inertia
 };
 
-/// Of a rotor, whose centre of mass lies off its axis.
+/// For a rotor with its centre of mass off its axis.
 struct UnbalanceRequest
 {
   double                 amount = 0.; ///< mass times eccentricity [kg m]
   double                 phase  = 0.; ///< [rad] of the centre of mass at zero angle, see attach_unbalance()
-  std::optional<Vector3> position{};  ///< [m] on its axis; none: where its carrier is
+  std::optional<Vector3> position{};  ///< [m] on its axis; none: the position of its carrier
 };
 
 struct BodyRequest
@@ -75,7 +75,7 @@ struct BodyRequest
   std::string        name;
   coupling::BodyKind kind = coupling::BodyKind::rotor;
   Vector3            axis{};                           ///< unit vector
-  std::string        carrier;                          ///< marker a rotor sits on, or a slider is guided by
+  std::string        carrier;                          ///< marker that carries a rotor, or guides a slider
   double             inertia = 0., mass = 0.;          ///< kg m^2, kg
   Eigen::Matrix3d    tensor = Eigen::Matrix3d::Zero(); ///< inertia of a rigid body in global axes [kg m^2]
   Vector3            position{}, size{};               ///< [m], for pictures
@@ -86,19 +86,19 @@ struct BodyRequest
   std::optional<UnbalanceRequest>       unbalance{};
 };
 
-/// A point of a body, an interface or the ground, in the position the scene describes.
+/// A point of a body, an interface or the ground, in the reference configuration.
 struct PlaceRequest
 {
   std::string            marker;
-  std::optional<Vector3> at; ///< [m]; none: the body's own reference point
+  std::optional<Vector3> at; ///< [m]; none: the reference point of the body
 };
 
-/// A point with a name, whose motion signals tell.
+/// A point with a name, for signals.
 struct NamedPlace
 {
   std::string  name;
   PlaceRequest point;
-  std::string  place; ///< in the scene file
+  std::string  place; ///< location in the scene file
 };
 
 /// weight * (motion of a marker along or about an axis).
@@ -113,23 +113,23 @@ using MotionMeasure = std::vector<MotionTerm>;
 
 struct MeasureRequest;
 
-/// weight * (a motion of markers, or a scalar of two places).
+/// weight * (a motion of markers, or a scalar of two points).
 struct TermRequest
 {
   double                                weight = 1.;
   MotionMeasure                         motion;
-  std::shared_ptr<const MeasureRequest> placed; ///< without terms of its own; null: `motion`
+  std::shared_ptr<const MeasureRequest> placed; ///< without terms; null: `motion`
 };
 
-/// Two wheels about parallel axes, whose teeth mesh.
+/// Two meshing gears with parallel axes.
 struct MeshRequest
 {
   Vector3 axis{};              ///< of both, unit vector
-  double  ratio          = 0.; ///< turns of the second per turn of the first, against the line of centres
-  double  pressure_angle = 0.; ///< [rad], negative: the other flank carries
+  double  ratio          = 0.; ///< of the speeds, second gear to first, relative to the line of centres
+  double  pressure_angle = 0.; ///< [rad], negative: the other flank is in contact
 };
 
-/// A scalar of the motion of two places, or a sum of terms from which a function may be taken; docs/scene/joints.md.
+/// A scalar of the relative motion of two points, or a sum of terms, optionally minus a function; docs/scene/joints.md.
 struct MeasureRequest
 {
   std::string                         name;
@@ -140,7 +140,7 @@ struct MeasureRequest
   std::string                         unit;
   std::string                         place;
 
-  std::vector<TermRequest>                           terms; ///< with any, the sum of them counts, not the two places
+  std::vector<TermRequest>                           terms; ///< if any, the measure is their sum instead
   std::shared_ptr<const mechanism::PositionFunction> function;
   TermRequest                                        argument; ///< of the function
 
@@ -149,12 +149,12 @@ struct MeasureRequest
 
 struct JointFrictionRequest; // apps/scene/joints/joint_friction.h
 
-/// Of a joint that yields.
+/// Of a compliant joint.
 struct ComplianceRequest
 {
-  Vector3               stiffness{}, damping{}; ///< [N/m], [N s/m] along the global axes as described
-  bool                  directed = false;       ///< the three differ and turn with the first body
-  std::optional<double> rotational_stiffness;   ///< [N m/rad]; demanded if the joint holds rotations
+  Vector3               stiffness{}, damping{}; ///< [N/m], [N s/m] along the global axes in the reference configuration
+  bool                  directed = false;       ///< the three differ and rotate with the first body
+  std::optional<double> rotational_stiffness;   ///< [N m/rad]; required if the joint constrains rotations
   std::optional<double> rotational_damping;     ///< [N m s/rad]
 };
 
@@ -165,14 +165,14 @@ struct JointRequest
   PlaceRequest                                from, to;
   Vector3                                     axis{};        ///< zero for a revolute joint of bodies without a choice
   Vector3                                     axis_to{};     ///< of `universal`, on the second body
-  std::optional<double>                       length;        ///< of `distance` [m]; none: as described
+  std::optional<double>                       length;        ///< of `distance` [m]; none: in the initial position
   double                                      ratio = 1.;    ///< of `gear`
   std::shared_ptr<const mechanism::MotionLaw> law;           ///< of `distance` and of a scalar
-  MeasureRequest                              measure;       ///< a scalar of the motion, if it has a value or a course
-  std::optional<double>                       value;         ///< of the scalar [m or rad]; none: as described
-  std::string                                 reaction_unit; ///< of what acts on the argument of its function
-  std::shared_ptr<const JointFrictionRequest> friction;      ///< or null; of joints that slide
-  std::optional<ComplianceRequest>            compliance;    ///< of those that hold two places
+  MeasureRequest                              measure;       ///< a scalar with a prescribed value or motion
+  std::optional<double>                       value;         ///< of the scalar; none: in the reference configuration
+  std::string                                 reaction_unit; ///< of the reaction on the argument of its function
+  std::shared_ptr<const JointFrictionRequest> friction;      ///< for joints that slide, or null
+  std::optional<ComplianceRequest>            compliance;    ///< for joints that connect two points
   bool                                        holds_rotations = false;
   std::string                                 place;
 
@@ -207,15 +207,15 @@ struct LoadRequest
   std::string                        force_unit;
 };
 
-/// Virtual coordinate T x' + x = p of an element.
+/// Lag coordinate T x' + x = p of an element.
 struct LagRequest
 {
   std::string name; ///< "motor.torque"
   double      time_constant = 0.;
 };
 
-/// Motion of place `to` as seen from the body of `from`: displacements along directions fixed to it, then its rotation
-/// about an axis, if any.
+/// Motion of point `to` relative to the body of `from`: displacements along directions fixed to that body, then its
+/// rotation about an axis, if any.
 struct PairRequest
 {
   PlaceRequest           from, to;
@@ -228,16 +228,16 @@ struct ElementRequest
   std::string                          name;
   std::shared_ptr<mechanism::ForceLaw> element;
   std::vector<MotionMeasure>           measures;
-  std::string                          on;     ///< a MeasureRequest: the element, a law of one measure, acts on it
+  std::string                          on;     ///< MeasureRequest on which the element, a law of one measure, acts
   std::vector<LagRequest>              lags;   ///< the element's last measures
-  std::optional<PairRequest>           pair{}; ///< the element is a law of these measures
-  /// A measure without a name that the element acts on, counted from the position described.
+  std::optional<PairRequest>           pair{}; ///< measures of the element's law
+  /// A measure without a name on which the element acts, relative to the reference configuration.
   std::shared_ptr<const MeasureRequest> own{};
-  bool follows = false; ///< of `own`: the element is a load on its second place along a direction that turns with it
+  bool follows = false; ///< of `own`: the element is a load on its second point and rotates with it
 
   coupling::MeasureKind              kind = coupling::MeasureKind::displacement;
-  std::shared_ptr<const ProfileKeys> levels{};      ///< what the order "set" tells; null: nothing
-  bool                               fixed = false; ///< cannot be switched off: its state would go on without it
+  std::shared_ptr<const ProfileKeys> levels{};      ///< kinds of the command "set"; null: not accepted
+  bool                               fixed = false; ///< cannot be switched off: its state would continue to change
 };
 
 struct PointMassRequest
@@ -268,19 +268,19 @@ struct StartRequest
   StartRule               rule = StartRule::given;
   std::vector<NamedValue> q, v; ///< given
   coupling::SteadyStart   steady;
-  bool                    periodic       = false; ///< from there to the periodic motion
+  bool                    periodic       = false; ///< search the periodic solution from there
   bool                    drift          = false; ///< rest: with the quasi-static velocity
-  bool                    inertia_relief = false; ///< rest: inertia takes loads along motions that nothing holds
+  bool                    inertia_relief = false; ///< rest: inertia balances the loads on unconstrained DOFs
   std::string             place;
 };
 
 struct SignalRequest
 {
   std::string name, path, place;
-  std::string from; ///< event from which on its extremes count
+  std::string from; ///< event after which its extremes are evaluated
 };
 
-/// An instant of the run at which stresses are told.
+/// An instant of the run at which stresses are computed.
 struct StressInstant
 {
   enum When
@@ -289,7 +289,7 @@ struct StressInstant
     extreme_of_signal, ///< coupling::StateRequest::extremes
     largest_stress
   };
-  std::string label; ///< for people; empty: the time tells
+  std::string label; ///< for people; empty: the time
   When        when  = largest_stress;
   int         index = 0;
 };
@@ -301,12 +301,12 @@ struct StressRequest
   std::string                place;
 };
 
-/// Stages of the run between events, and signals in which the last one rings.
+/// Stages of the run between events, and signals whose ringing in the last stage is identified.
 struct StageRequest
 {
-  std::vector<std::string> names, borders; ///< one name more than borders; a border is "NAME" or "NAME.KIND"
+  std::vector<std::string> names, borders; ///< one name more than borders; a border is an event, "NAME" or "NAME.KIND"
   std::vector<std::string> ringing;        ///< names of signals
-  int                      modes = 3;      ///< that are told of them, at most
+  int                      modes = 3;      ///< largest number reported
   std::string              place;
 
   bool given() const { return !names.empty(); }
@@ -322,13 +322,13 @@ struct ModesRequest
 struct RunRequest
 {
   bool                 given      = false; ///< there is a [run]
-  bool                 step_given = true;  ///< else it follows from the modes of a superposition
+  bool                 step_given = true;  ///< else it follows from the modes of the superposition
   coupling::RunOptions options;
-  bool                 last_period = false; ///< extremes count over it: options.from follows from the machine
+  bool                 last_period = false; ///< extremes are evaluated over it: options.from follows from the machine
   std::string          place;
 };
 
-/// A scene file as a plain value: checked in itself, nothing computed.
+/// A scene file as a plain value: validated on its own, nothing computed.
 struct Scene
 {
   std::string                        file, name, description;
@@ -345,14 +345,14 @@ struct Scene
   std::vector<SwitchRequest>         switches;
   std::vector<PointMassRequest>      point_masses;
   std::vector<coupling::DrawnRod>    rods;
-  std::map<std::string, std::string> element_places; ///< by the element's name
+  std::map<std::string, std::string> element_places; ///< locations by the element's name
   StartRequest                       start;
   RunRequest                         run;
   ModesRequest                       modes;
   std::vector<SignalRequest>         signals;
   StressRequest                      stress;
   StageRequest                       stages;
-  std::vector<std::string>           warnings; ///< of what is allowed and probably not meant
+  std::vector<std::string>           warnings; ///< about valid but suspicious input
 };
 
 } // namespace gestell::apps

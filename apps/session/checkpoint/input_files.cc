@@ -35,7 +35,7 @@ std::vector<fs::path> input_files(const std::string &file, const std::vector<std
   {
     add(read_scene_file(file, overrides), files);
   }
-  catch (const std::invalid_argument &) // whoever reads the scene says why
+  catch (const std::invalid_argument &) // the reader of the scene reports the reason
   {
   }
   return {files.begin(), files.end()};

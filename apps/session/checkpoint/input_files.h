@@ -8,11 +8,11 @@ namespace gestell::apps
 {
 
 /**
- * The files that a scene is read from: its own, those it extends, those that its entries name (CAD with all that a
- * script includes, meshes, matrices, tables), for folders in which no result may take their place.
+ * The files that a scene is read from: the scene file, those it extends, and those that its keys name (CAD with all
+ * files that a script includes, meshes, matrices, tables).  Results must not replace them.
  *
  * @param overrides  of the command line, "key.path=value"
- * @return the file alone where it cannot be read as a scene
+ * @return only the file itself if it cannot be read as a scene
  */
 std::vector<std::filesystem::path> input_files(const std::string &file, const std::vector<std::string> &overrides);
 

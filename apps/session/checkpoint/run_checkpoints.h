@@ -11,18 +11,18 @@
 namespace gestell::apps
 {
 
-/// Where a run keeps its state now and then, so that one that was stopped goes on.
+/// Where and how often a run saves its state, so that an interrupted run can be resumed.
 struct CheckpointRequest
 {
   std::filesystem::path file;
-  double                every  = 30.;   ///< [s] of wall time; 0: at an interruption alone
-  bool                  resume = false; ///< from the state that stands there
-  std::function<void()> claim{};        ///< the place of the file, before it is written
+  double                every  = 30.;   ///< [s] of wall time; 0: only at an interruption
+  bool                  resume = false; ///< from the saved state
+  std::function<void()> claim{};        ///< called before the file is written, to reserve it
 };
 
 /// The same for simulate(); `machine` and `warnings` must outlive it.
-/// @param warnings  gets, once, why states could not be kept: a full disk ends no run
-/// @throws std::invalid_argument as read_checkpoint()
+/// @param warnings  receives, once, the reason why states could not be saved: a full disk does not end a run
+/// @throws std::invalid_argument as read_checkpoint() does
 coupling::RunCheckpoints run_checkpoints(const CheckpointRequest &request, const SceneNode &scene,
                                          const coupling::Machine &machine, const coupling::InitialState &start,
                                          std::vector<std::string> &warnings);

@@ -48,7 +48,7 @@ void add(const SceneNode &node, Sha256 &hash)
     add(element, hash);
 }
 
-/// What of it names a file, with the bytes that stand there.
+/// Adds the files named in the scene, with their bytes.
 void add_files(const SceneNode &node, Sha256 &hash)
 {
   std::error_code error;

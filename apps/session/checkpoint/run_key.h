@@ -10,15 +10,15 @@
 namespace gestell::apps
 {
 
-/// Something that a run depends on, and the SHA-256 of it.
+/// An input of a run, with its SHA-256.
 struct KeyPart
 {
   std::string what, hash;
 };
 
 /**
- * All that a run depends on: the program's own bytes, the entries of the scene with what was overridden (comments and
- * the order of lines do not count), the bytes of files that it names, the matrices of the machine and its start.
+ * All inputs of a run: the program file, the scene keys with overrides (comments and the order of lines do not count),
+ * the bytes of referenced files, the matrices of the machine and its initial state.
  */
 std::vector<KeyPart> run_key(const SceneNode &scene, const coupling::Machine &machine,
                              const coupling::InitialState &start);

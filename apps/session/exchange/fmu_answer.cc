@@ -87,7 +87,7 @@ bool may_be_file(const Key &key)
          std::find(key.others.begin(), key.others.end(), Key::Form::file) != key.others.end();
 }
 
-/// Files that keys of a table name go with the scene; the keys then name them there.  Any other text stays what it is.
+/// Adds the files that keys of a table name to the archive, and makes the keys name them there.
 void take_files(SceneNode &table, const std::vector<Key> &keys, std::map<std::string, std::string> &files)
 {
   for (auto &[name, value] : table.entries)
@@ -135,7 +135,7 @@ void require_portable(const Scene &scene)
                                                     "a reduced frame, such as \"craig-bampton\"");
 }
 
-/// The frame as a file that is at hand.
+/// Replaces the frame by a file that is available.
 void take_frame(SceneNode &root, Session &session, FmuResources &resources, std::map<std::string, std::string> &files,
                 std::vector<std::string> &notes)
 {
@@ -175,7 +175,7 @@ void keep_signals_alone(SceneNode &root)
   *output = kept;
 }
 
-/// Equal for equal files alone.
+/// Equal only for equal files.
 std::string guid_of(const std::map<std::string, std::string> &files)
 {
   coupling::Recipe recipe{{"version", version}};
@@ -193,7 +193,7 @@ std::string without(std::string text, const std::string &part)
 
 FmuDescription described(const FmuModel &model)
 {
-  constexpr double steps  = 100.; ///< of a run between which it communicates, about
+  constexpr double steps  = 100.; ///< about this number of communication steps in a run
   const Scene     &scene  = model.scene();
   const auto      &run    = scene.run.options;
   const double     h      = run.method.step;

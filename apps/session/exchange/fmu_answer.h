@@ -10,19 +10,20 @@
 namespace gestell::apps
 {
 
-/// What an FMU consists of, beside the library: its description, and its files by their names in the archive.
+/// Contents of an FMU besides the library: its description, and its files by their names in the archive.
 struct FmuAnswer
 {
   FmuDescription                     fmu;
   std::map<std::string, std::string> files; ///< "resources/scene.toml": bytes
-  std::vector<std::string>           notes; ///< what people should know of it
+  std::vector<std::string>           notes; ///< for people
 };
 
 /**
- * The scene with its frame, reduced if it has one that is reduced, as the resources of an FMU.  The machine is started
- * once from them, to see whether it does.
+ * The scene with its frame, reduced if that is possible, as the resources of an FMU.  The machine is initialised once
+ * from them as a test.
  *
- * @throws std::invalid_argument for what an FMU cannot carry, with the way out; ConvergenceFailure if it does not start
+ * @throws std::invalid_argument for parts that an FMU does not support, with the remedy; ConvergenceFailure if the
+ *   initialisation fails
  */
 FmuAnswer fmu_of(Session &session);
 

@@ -13,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-/// A motion on which a force can act, as the keys of a force profile say it.
+/// A motion on which a force can act, as the keys of a force profile.
 struct InputPlace
 {
   std::string name, keys;
@@ -46,7 +46,7 @@ void add_body_places(const BodyRequest &body, std::vector<InputPlace> &places)
                       from + ", about = [" + exact_text(x) + ", " + exact_text(y) + ", " + exact_text(z) + "]"});
 }
 
-/// Of the frame any, as far as it is written so: names of interfaces are checked where they are read.
+/// Places of forces. For the frame any name of this form is accepted: the reader of interfaces checks it.
 std::vector<InputPlace> force_places(const Scene &scene, const std::string &requested)
 {
   std::vector<InputPlace> places;
@@ -59,7 +59,7 @@ std::vector<InputPlace> force_places(const Scene &scene, const std::string &requ
   return places;
 }
 
-/// The course of an element that an input may replace.
+/// A profile of an element that an input may replace.
 struct InputCourse
 {
   std::string name; ///< "drive.speed"
@@ -98,7 +98,7 @@ SceneNode parsed_keys(const std::string &text, const Place &place, const std::st
   return *node;
 }
 
-/// A level that the course had all along is what the input begins with.
+/// The constant level of a profile becomes the initial value of the input.
 void follow_input(const InputCourse &course, const SceneNode &input)
 {
   const SceneNode *before = course.element->find(course.key);

@@ -63,7 +63,7 @@ MatrixXd rates(const PlacedPoint &place, const std::vector<int> &coordinates)
   return of;
 }
 
-/// Of a body in space, by its rigid motions: a unit turn about e through the place moves the directors by e x d_i.
+/// For a free spatial body, from its rigid-body motions: a unit rotation about e moves d_i by e x d_i.
 Wrench of_free_body(const PlacedPoint &place, const VectorXd &w, const VectorXd &g)
 {
   Wrench found{g.head<3>(), Vector3d::Zero(), 3};
@@ -101,7 +101,7 @@ Wrench wrench_on(const ForceSide &side, const VectorXd &q, const VectorXd &Q, do
   return {solution.head<3>(), size * solution.tail<3>(), int(translations.rank())};
 }
 
-/// What the partner bears.
+/// The reaction on the other body.
 Wrench reaction(const Wrench &to, const Vector3d &from_place, const Vector3d &at_place, int translations)
 {
   return {-to.force, -to.torque - (from_place - at_place).cross(to.force), translations};
@@ -116,7 +116,7 @@ VectorXd on_coordinates(const ForceBetween &between, const VectorXd &p, Eigen::I
   return Q;
 }
 
-/// The motion of the bodies alone.
+/// Only the motion of the bodies.
 VectorXd without_frame(const VectorXd &q, int n_frame)
 {
   VectorXd bodies = q;
@@ -153,8 +153,8 @@ void add_between(const ForceBetween &between, const VectorXd &q, const VectorXd 
   all.push_back(acting(between.name, between.second.body, between.second.at, q, bodies, second));
 }
 
-/// All of a force on the body but the torque about the axis it turns about, or the force along the one it slides along;
-/// about the body's own place.
+/// All of a force on the body except the torque about its axis of rotation, or the force along its sliding direction;
+/// about the reference point of the body.
 Wrench passed_on(const Bearing &bearing, const ActingForce &force, const VectorXd &q)
 {
   const Vector3d arm = force.at + force.displacement - position(bearing.of_body, q);
@@ -164,7 +164,7 @@ Wrench passed_on(const Bearing &bearing, const ActingForce &force, const VectorX
   return passed;
 }
 
-/// What bearings and guides do to the two they join, behind what acts on a body between places.
+/// Adds the forces of bearings and guides on the two bodies that they connect, after the forces between points.
 void add_bearings(const std::vector<Bearing> &bearings, const VectorXd &q, const VectorXd &bodies,
                   std::vector<ActingForce> &all)
 {

@@ -9,20 +9,20 @@ namespace gestell::apps
 {
 
 /**
- * Forces and torques in space, of an element by the work of its forces p on its measures u = W^T q: at a place of a
- * body that moves by x' = J w' and turns by R w', w = w(q) the measures of the place, force F and torque M about it are
- * those with
+ * Forces and torques in space, from the virtual work of an element's forces p on its measures u = W^T q.  A point of a
+ * body has the velocity x' = J w' and the angular velocity R w', where w = w(q) are its measures.  Force F and torque M
+ * about the point follow from
  *
  *     (dw/dq)^T (J^T F + R^T M) = W p        for the coordinates that move this body and not the other one,
  *
- * the smallest ones where motions are missing: what holds a body in its plane no coordinate tells.  It is taken at the
- * body that has more motions; the other one, and the ground, bear -F, and -M - (x_1 - x_2) x F: an element without mass
- * is in equilibrium.
+ * by the minimum norm if DOFs are missing: no coordinate determines the force that keeps a body in its plane.  They are
+ * computed at the body with more DOFs; the other body, or the ground, receives -F and -M - (x_1 - x_2) x F, because an
+ * element without mass is in equilibrium.
  */
 class ActingForces
 {
 public:
-  /// @param machine  outlives it
+  /// @param machine  must outlive this object
   ActingForces(const Scene &scene, const coupling::Machine &machine);
 
   /// See Scenery::forces.
@@ -34,7 +34,7 @@ private:
   ForcePlaces              places_;
 };
 
-/// Of a machine that serves pictures; empty: nothing acts.
+/// The forces for pictures of this machine; empty: there are none.
 std::function<std::vector<ActingForce>(double, const Eigen::VectorXd &, const Eigen::VectorXd &,
                                        const Eigen::VectorXd &)>
 forces_in_space(const Scene &scene, const coupling::Machine &machine);

@@ -163,7 +163,7 @@ void Places::add_measure(const MeasureRequest &request, const coupling::ElementP
     add_term(request.argument, element, from);
 }
 
-/// @return the measure behind its own
+/// @return the index after its last measure
 int Places::add_term(const TermRequest &term, const coupling::ElementPlacement &element, int from)
 {
   if (!term.placed)
@@ -195,7 +195,7 @@ ForceAlong Places::along(const std::string &name, const std::string &body, const
   return along;
 }
 
-/// A rotor turns about its axis and a slider moves along it; all other motions are those of its carrier.
+/// A rotor rotates about its axis and a slider moves along it; all other motions are those of the carrier.
 std::vector<ForceAlong> Places::shared(const std::string &name, const std::string &body, const Vector3d &direction,
                                        bool turns) const
 {
@@ -214,8 +214,8 @@ std::vector<ForceAlong> Places::shared(const std::string &name, const std::strin
   return all;
 }
 
-/// With the ground where the terms do not bear each other.  A torque beside forces, as of a connecting rod, is borne by
-/// their levers.
+/// Includes the ground if the terms do not balance each other.  A torque together with forces, as for a connecting rod,
+/// is balanced by their levers.
 std::vector<ForceAlong> Places::all_along(const std::string &name, const MotionMeasure &motion, bool turns_alone) const
 {
   std::vector<ForceAlong> all;

@@ -49,7 +49,7 @@ class VariedScene
 public:
   VariedScene(const Variant &file, VariedKey &key) : file_(file), key_(key) {}
 
-  /// At its value and `by` of its step.
+  /// The scene at the value of the key plus `by` steps.
   Scene at(double by) const
   {
     const Variant varied = file_.with(key_.overridden(by));
@@ -88,7 +88,7 @@ coupling::ReducedFrame frame_with_modes_of(const coupling::ReducedFrame &other, 
   return reduced_frame(scene, progress).frame;
 }
 
-/// Of the frame by an entry that it depends on: a quotient of two frames, each reduced once and kept.
+/// Derivative of the frame with respect to a key that changes it: a quotient of two cached frames.
 std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &varied, const Scene &scene,
                                                              const coupling::ReducedFrame &frame,
                                                              const coupling::Progress &progress, std::string &warning)
@@ -98,8 +98,8 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
     return {};
   VariedKey       &key         = varied.key();
   const bool       anew        = meshed_anew(near, scene);
-  constexpr double of_matrices = 1e-3; // of a value, by which frames on equal meshes are apart from the scene's
-  constexpr double of_meshes   = 5e-2; // of frames meshed anew: what meshes scatter is smaller beside it
+  constexpr double of_matrices = 1e-3; // relative change of the parameter, for frames on equal meshes
+  constexpr double of_meshes   = 5e-2; // for remeshed frames: the scatter of the meshes is smaller
   const double     steps       = (anew ? of_meshes : of_matrices) * std::abs(key.reported.value) / key.step;
   try
   {
@@ -111,7 +111,7 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
                                               : coupling::frame_derivative(frame, below, above, steps * key.step);
     key.reported.frame = "differences of two reductions at " + percent(anew ? of_meshes : of_matrices) +
                          (anew ? " more and less, each meshed anew" : " more and less");
-    constexpr double rough = 0.05; // of a difference of frames: what it may be wrong by is told
+    constexpr double rough = 0.05; // of a difference of frames: larger errors are reported
     if (derivative.curvature > rough)
       warning = "derivatives by " + key.reported.key + " come from " + key.reported.frame +
                 "; these differ from the frame between them by " + percent(derivative.curvature, 2) +

@@ -11,7 +11,7 @@
 namespace gestell::apps
 {
 
-/// Scenes a little below and above the value of every key, and what is differentiated of them.
+/// Scenes a little below and above the value of every key, for difference quotients.
 struct PerturbedScenes
 {
   std::vector<PreparedScene>            scenes; ///< of key k: 2k below, 2k + 1 above
@@ -19,12 +19,12 @@ struct PerturbedScenes
   std::vector<std::string>              warnings;
 };
 
-/// The frame of all is that of `prepared`; with entries on which it depends it is moved by its derivative, a quotient
-/// of two reductions.
-/// @param keys      without those that are left out; those of the frame are told how its derivative was found
-/// @param left_out  gets a sentence for each key that has no derivative, and is left out; null: it is refused
+/// All scenes use the frame of `prepared`; for a key that changes the frame, the derivative of the frame, a difference
+/// quotient of two reductions, is added.
+/// @param keys      omitted keys are removed; for keys of the frame the method of its derivative is noted
+/// @param left_out  receives a sentence for each omitted key, which has no derivative; null: such a key is an error
 /// @param progress  of reductions
-/// @throws std::invalid_argument where a scene is refused at such a value, or its machine is of another structure
+/// @throws std::invalid_argument if a scene is invalid at such a value, or its machine has another structure
 PerturbedScenes perturbed_scenes(const Variant &file, const Scene &scene, PreparedMachine &prepared,
                                  std::vector<VariedKey> &keys, std::vector<std::string> *left_out,
                                  const coupling::Progress &progress);

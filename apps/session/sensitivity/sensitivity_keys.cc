@@ -17,14 +17,14 @@ namespace gestell::apps
 
 namespace
 {
-constexpr double share = 1e-6; ///< of a value, by which it is varied: rounding and curvature of laws are 1e-9 then
+constexpr double share = 1e-6; ///< relative change of a value: rounding and curvature of laws are then 1e-9
 
 [[noreturn]] void refuse(const std::string &key, const std::string &what)
 {
   throw std::invalid_argument("--sensitivities " + key + ": " + what);
 }
 
-/// Parts of a text between separators that stand outside quotes; the quotes of a whole part are taken off.
+/// Splits a string at separators outside quotes; the quotes of a whole part are removed.
 std::vector<std::string> split_outside_quotes(const std::string &text, char separator)
 {
   std::vector<std::string> parts(1);
@@ -174,7 +174,7 @@ std::string VariedKey::overridden(double by) const
     append_exact(number, reported.value * (1. + (by * reported.value > 0. ? 1. : -1.) * share * std::abs(by)));
     return reported.key + '=' + number + (number.find_first_of(".e") == std::string::npos ? ".0" : "");
   }
-  // A whole number of a file that stands for a real one is written as a text.
+  // An integer in the file in place of a real number is written as a string.
   std::string text_of_share;
   append_exact(text_of_share, share * std::abs(by));
   return reported.key + "=\"(" + text + ")*(1 " + (by * reported.value > 0. ? "+ " : "- ") + text_of_share + ")\"";

@@ -9,21 +9,21 @@
 namespace gestell::apps
 {
 
-/// An entry of a scene that can be given a value a little below and above its own.
+/// A scene key whose value can be perturbed.
 struct VariedKey
 {
   SensitivityKey reported;
   std::string    text;      ///< in the file: "900 kN/mm"
-  double         step = 0.; ///< of its value, > 0
+  double         step = 0.; ///< absolute step of its value, > 0
 
-  /// "parameters.c_P=(900 kN/mm)*(1 + 1e-6)", larger by `by` of its step: below zero smaller.
+  /// Override "parameters.c_P=(900 kN/mm)*(1 + 1e-6)", changed by `by` steps; negative: smaller.
   std::string overridden(double by) const;
 };
 
-/// Entries named by a comma separated list, or "all": every number of [parameters] that is no expression of others.
-/// @throws std::invalid_argument: an entry that does not exist (nearest named), one that is no number, is zero, or says
-/// nothing about the machine
-/// @param left_out  gets a sentence that names the parameters that "all" leaves out for they are zero; null: nothing
+/// Keys of a comma-separated list, or "all": every number of [parameters] that is not an expression of others.
+/// @throws std::invalid_argument for a key that does not exist (with the most similar one), is not a number, is zero,
+/// or does not affect the machine
+/// @param left_out  receives a sentence with the parameters that "all" omits because they are zero; null: not used
 std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &list,
                                    std::vector<std::string> *left_out = nullptr);
 

@@ -57,8 +57,8 @@ void add_dense_pictures(coupling::RunResult &run, PeakState &peak)
   double           last = -std::numeric_limits<double>::infinity();
   for (const coupling::KeptState &state : run.states.around[largest ? 0 : 1])
   {
-    constexpr double periods = 1.5;  // on either side of the peak: the blow and what comes before and after
-    constexpr double uneven  = 0.02; // of their distance, that the states lie beside their grid
+    constexpr double periods = 1.5;  // before and after the peak: the impact and the motion around it
+    constexpr double uneven  = 0.02; // allowed distance of states from their grid, relative to its spacing
     if (std::abs(state.t - peak.t) > periods * period || state.t < last + (1. - uneven) * step)
       continue;
     last                       = state.t;

@@ -6,9 +6,9 @@ namespace gestell::apps
 {
 
 /**
- * Pictures so close around the main peak that the vibration which makes it is seen: sixteen a period, one and a half
- * periods to either side, of the states kept around it.  Fills PeakState::half_swing by the signal's turning points.
- * Nothing where no states are kept or the signal does not turn.
+ * Adds pictures around the main peak so densely that its vibration is visible: sixteen per period, over one and a half
+ * periods before and after, from the states kept around the peak.  Sets PeakState::half_swing from the signal's turning
+ * points.  No effect without kept states or turning points.
  */
 void add_dense_pictures(coupling::RunResult &run, PeakState &peak);
 

@@ -84,7 +84,7 @@ void add_modes(const coupling::ElementPlacement &placement, const LocalModes &th
   load.t_modes                     = there.t;
   load.place                       = there.place;
   load.unknown                     = there.unknown;
-  constexpr double      slow       = 100.; // periods up to so many durations: slower modes see an impulse
+  constexpr double      slow       = 100.; // times the duration: slower modes see an impulse
   constexpr double      fast       = 4.;   // periods within the fall: its factor is below 0.1 beyond
   constexpr std::size_t most_modes = 12;   // rows of a table
   for (std::size_t j = 0; j < std::min(there.modes.size(), std::size_t(most)) && load.modes.size() < most_modes; ++j)
@@ -93,7 +93,7 @@ void add_modes(const coupling::ElementPlacement &placement, const LocalModes &th
       load.modes.push_back(on_mode(load, placement, there, j));
 }
 
-/// The state kept nearest to the begin of the fall, in it or a tenth of the load's duration away; none: q is empty.
+/// The stored state closest to the start of the fall, in it or within a tenth of the load's duration; none: empty q.
 coupling::KeptState state_at_fall(const LoadDuration &load, const coupling::RunResult &run)
 {
   const double        reach = std::max(load.fall, 0.1 * (load.t_fall - load.begin));

@@ -11,23 +11,23 @@ namespace gestell::apps
 {
 
 /**
- * How long a force acts, from samples F(t): the piece above 0.01 |F|_max that holds the peak, with pieces before it
- * that are parted from it by less than a tenth of its duration (the tool bounces); how long it rises to 0.9 of
- * the peak; and how long a fall from there to 0.1 would last as a whole, were it even.
+ * Duration of a force, from samples F(t).  It acts in the interval above 0.01 |F|_max that contains the peak, joined
+ * with earlier intervals whose gap is shorter than a tenth of its duration (a bouncing tool).  The rise ends at 0.9 of
+ * the peak.  The duration of the fall is extrapolated linearly from that between 0.9 and 0.1 of the peak.
  *
- * Of events, which the rows may lie far from, the force on both sides is a sample, too; `row_step` tells how far apart
- * they lie.
+ * At events, which rows may miss, the force on both sides is also a sample; `row_step` is the largest interval between
+ * samples.
  *
- * @return none of a force that acts at the begin or at the end, or changes its sign
+ * @return none for a force that acts at the first or last sample, or changes its sign
  */
 std::optional<LoadDuration> load_duration(const std::vector<double> &t, const std::vector<double> &F);
 
-/// Whether it has no stiffness where the modes are found: tools and loads, not springs and contacts that hold.
+/// Whether it has zero stiffness and damping in the configuration of the modes: a tool or load.
 bool is_tool(const mechanism::Element &element);
 
 /**
- * Free vibration behind a force that falls evenly by dF within tau, beside that of a sudden fall; a mode v of frequency
- * omega, with v^T M v = 1 and the displacement u = w . v of the force, is left with the energy E:
+ * Residual vibration after a force falls linearly by dF within tau, relative to that after a sudden fall.  E is the
+ * energy that remains in a mode v of frequency omega, with v^T M v = 1 and displacement u = w. v at the force:
  *
  *     factor = |sin(pi tau/T) / (pi tau/T)|,     E = 1/2 (factor u dF / omega)^2.
  *
@@ -35,8 +35,8 @@ bool is_tool(const mechanism::Element &element);
  */
 double fall_factor(double fall_over_period);
 
-/// Of every signal that is the force of an element without stiffness (a tool), with the modes it acts on: those of the
-/// machine as it stands where the force begins to fall, of a state kept there.
+/// Durations of every signal that is the force of an element without stiffness (a tool), with the modes it excites:
+/// modes of the machine linearised at the state kept where the force begins to fall.
 std::vector<LoadDuration> load_durations(const std::vector<coupling::Signal> &signals, const coupling::Machine &machine,
                                          const Result &result, ModesOfRun &modes);
 

@@ -33,7 +33,7 @@ std::string place_of(const coupling::Machine &machine, const Eigen::VectorXd &q)
   return text;
 }
 
-/// Of the modes by which the scene numbers them.
+/// Indices of the scene's modes for these modes.
 std::vector<int> numbers_of(const coupling::Machine &machine, const std::vector<coupling::Mode> &modes,
                             const std::vector<coupling::Mode> &numbered)
 {

@@ -12,26 +12,26 @@
 namespace gestell::apps
 {
 
-/// All modes of the machine linearised where it stands at an instant of a run, undamped.
+/// All undamped modes of the machine linearised at an instant of a run.
 struct LocalModes
 {
   double                      t = 0.; ///< [s]
-  std::string                 place;  ///< of the first rotors and sliders: "crank 160.2 deg, slide 152 mm"
+  std::string                 place;  ///< positions of the first rotors and sliders: "crank 160.2 deg, slide 152 mm"
   std::vector<coupling::Mode> modes;
-  std::vector<int>            numbers; ///< [modes] which one of Result::coupled_modes it is, from 0 on; -1: none
+  std::vector<int>            numbers; ///< [modes] index in Result::coupled_modes, from 0; -1: none
   coupling::EnergyShares      shares;
   std::string                 unknown; ///< why there are no modes; empty: there are
 
-  std::string strain(std::size_t mode) const; ///< the part with most of its strain energy: "rod by 75 %"; may be empty
+  std::string strain(std::size_t mode) const; ///< part with most of its strain energy: "rod by 75 %"; may be empty
 };
 
 /**
- * The machine linearised at states of its run, each instant once.  A mode there is the one of Result::coupled_modes,
- * found where the scene says, whose shape it has,
+ * The machine linearised at states of its run, each instant once.  A mode v there is identified with the mode v_j of
+ * Result::coupled_modes if their shapes agree:
  *
  *     (v^T M v_j)^2 >= 0.8.
  *
- * Of large machines as many states as some seconds allow.
+ * For large machines the number of states is limited to a few seconds of computing time.
  */
 class ModesOfRun
 {
@@ -40,7 +40,7 @@ public:
 
   const LocalModes &at(const coupling::KeptState &state);
 
-  int most() const; ///< how many the scene asks for
+  int most() const; ///< number of modes requested in the scene
 
 private:
   LocalModes found(const coupling::KeptState &state) const;
@@ -49,7 +49,7 @@ private:
   const coupling::Machine &machine_;
   const Result            &result_;
   std::size_t              most_states_;
-  std::deque<LocalModes>   found_; ///< references stay
+  std::deque<LocalModes>   found_; ///< a deque, so that references stay valid
 };
 
 } // namespace gestell::apps

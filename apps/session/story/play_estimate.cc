@@ -22,7 +22,7 @@ struct PlayedElement
 {
   const coupling::ElementPlacement *placement;
   int                               first;  ///< of its measures in u
-  std::size_t                       signal; ///< that tells its deflection, and of the element
+  std::size_t                       signal; ///< of its deflection, also its index in the element
   Eigen::MatrixXd                   K;      ///< engaged [k x k]
 };
 
@@ -63,7 +63,7 @@ std::vector<PlayedElement> played_elements(const std::vector<coupling::Signal> &
   return found;
 }
 
-/// The deflection that the signal tells, at measures u [k] at rest.
+/// The deflection in the signal for measures u [k] at rest.
 double deflection(const PlayedElement &played, const coupling::Signal &signal, const Eigen::VectorXd &u)
 {
   const Eigen::VectorXd        zero = Eigen::VectorXd::Zero(u.size());
@@ -114,8 +114,8 @@ double softened_hz(const Result &result, const Eigen::MatrixXd &K_modes, double 
   return std::sqrt(std::max(0., solver.eigenvalues()[nearest])) / two_pi;
 }
 
-/// Whether the force of the element turns its sign between the two ends of a cycle's deflection: one that is loaded on
-/// one side only does not swing through its play.
+/// Whether the force of the element changes its sign between the two ends of a cycle's deflection: an element that is
+/// loaded on one side only does not cross its clearance.
 bool crosses(const PlayedElement &played, const coupling::Signal &signal, const Eigen::VectorXd &u,
              const Eigen::VectorXd &d, const PlayEstimate &cycle)
 {
@@ -133,7 +133,7 @@ bool crosses(const PlayedElement &played, const coupling::Signal &signal, const 
   return force_at(cycle.mean - cycle.amplitude) * force_at(cycle.mean + cycle.amplitude) < 0.;
 }
 
-/// Whether rows are close enough to tell the amplitude of a cycle.
+/// Whether rows are dense enough for the amplitude of a cycle.
 bool fine_rows(const HistoryRows &rows, double begin, double end)
 {
   double widest = 0.;
@@ -158,7 +158,7 @@ double range_between(const HistoryRows &rows, std::size_t signal, double begin, 
   return high - low;
 }
 
-/// The deflection in the row behind an instant.
+/// The deflection in the first row after an instant.
 double deflection_at(const HistoryRows &rows, std::size_t signal, double t)
 {
   std::size_t i = 0;
@@ -167,8 +167,8 @@ double deflection_at(const HistoryRows &rows, std::size_t signal, double t)
   return rows.at(i, signal + 1);
 }
 
-/// Whether two events of one kind are the begin of two cycles: at the same deflection, not on the other side of the
-/// play.
+/// Whether two events of one kind are the starts of two cycles: at the same deflection, not on the other side of the
+/// clearance.
 bool same_side(const HistoryRows &rows, std::size_t signal, double begin, double end)
 {
   const double     moved      = deflection_at(rows, signal, end) - deflection_at(rows, signal, begin);
@@ -194,7 +194,7 @@ std::vector<PlayEstimate> cycles_of(const coupling::RunResult &run, const Played
   double                    before = std::numeric_limits<double>::quiet_NaN();
   for (const coupling::Event &event : run.events)
   {
-    constexpr std::size_t most_cycles = 8; // rows of a table; the first ones tell the frequency after the blow
+    constexpr std::size_t most_cycles = 8; // rows of a table; the first ones show the frequency after the impact
     if (cycles.size() == most_cycles || event.name != played.placement->name || event.kind != kind)
       continue;
     if (before < event.t && !same_side(rows, played.signal, before, event.t))
@@ -226,7 +226,7 @@ std::string limits_of(const PlayEstimate &cycle, const PlayEstimate *next)
   return limits;
 }
 
-/// The mode whose strain energy lies most in the element, not the stiffest one; -1: none.
+/// The mode with the largest strain energy in the element, not the stiffest one; -1: none.
 int strained_most(const Eigen::MatrixXd &K_modes, const Result &result)
 {
   int    most  = -1;
@@ -241,7 +241,7 @@ int strained_most(const Eigen::MatrixXd &K_modes, const Result &result)
   return most;
 }
 
-/// What all cycles of an element have in common.
+/// Common data of all cycles of an element.
 struct ClosedMode
 {
   int             mode;

@@ -9,20 +9,21 @@ namespace gestell::apps
 {
 
 /**
- * Vibration through play, cycle by cycle, beside the estimate by harmonic linearisation.  A cycle lies between two
- * events of one kind of an element that can be open; in it the element's own signal (compression, displacement) s moves
- * between s_min and s_max, with A = (s_max - s_min)/2 about (s_max + s_min)/2.  Along the element's part d of the mode
- * v with most of its strain, kappa = k_eq(A) / (d^T K_e d) is its describing function over its engaged stiffness, and
+ * Compares vibration with clearance, cycle by cycle, with its estimate by harmonic linearisation.  A cycle is the time
+ * between two events of one kind of an element that can be open; in it the element's signal s (compression,
+ * displacement) varies between s_min and s_max, with amplitude A = (s_max - s_min)/2 and mean (s_max + s_min)/2.  For
+ * the element's part d of the mode v with most of its strain energy, kappa = k_eq(A) / (d^T K_e d) is the ratio of its
+ * describing function to its engaged stiffness, and
  *
  *     (diag(omega_j^2) + (kappa - 1) V^T K_e V - omega^2 E) y = 0
  *
- * in the modes V of the closed machine gives the frequency beside that of the cycle, 1/duration.
+ * in the modes V of the closed machine gives the estimated frequency, to be compared with 1/duration of the cycle.
  *
- * Cycles over rows farther apart than a twentieth of them are left out, and those in which the element is loaded on one
- * side of its play only.
+ * Cycles with fewer than twenty output rows are skipped, as are cycles in which the element is loaded only on one side
+ * of its clearance.
  *
  * Source: describing functions, docs/theory/periodic.md; Dresig, Vul'fson, 5.5.5.
- * @param q  where the modes are found
+ * @param q  configuration of the modes
  */
 std::vector<PlayEstimate> play_estimates(const std::vector<coupling::Signal> &signals, coupling::Machine &machine,
                                          const Eigen::VectorXd &q, const Result &result);

@@ -51,7 +51,7 @@ class EventsOfRun
 public:
   explicit EventsOfRun(const coupling::RunResult &run) : run_(run), rows_(run) {}
 
-  /// Null where the motion there is not known.
+  /// Null if the motion there is unknown.
   const coupling::EventValues *at(std::size_t e) const
   {
     if (e >= run_.event_values.size() || rows_.size() < 2)
@@ -62,7 +62,7 @@ public:
     return here && !at.before.empty() && !at.after.empty() ? &at : nullptr;
   }
 
-  /// Integral of the force s from an event to the next one of its object; NaN: rows do not tell it.
+  /// Integral of the force s from an event to the next one of its object; NaN: rows are too far apart.
   double impulse(std::size_t e, std::size_t s) const
   {
     const std::size_t next = next_of(e);
@@ -102,14 +102,14 @@ const std::vector<coupling::KeptState> *states_about(const std::vector<coupling:
                                                      const coupling::RunResult &run, std::size_t s, bool largest)
 {
   const auto &around = run.states.around;
-  const auto  wanted = swing_extremes(signals, 1); // all of them; those kept are the first ones
+  const auto  wanted = swing_extremes(signals, 1); // all of them; the stored ones come first
   for (std::size_t i = 0; i < std::min(wanted.size(), around.size()); ++i)
     if (wanted[i].signal == int(s) && wanted[i].largest == largest)
       return &around[i];
   return nullptr;
 }
 
-/// The mode that makes most of a swing, into `swing`.
+/// Writes the mode with the largest contribution to a half-cycle into `swing`.
 void add_mode(ExtremeSwing &swing, const coupling::Signal &signal, const coupling::Machine &machine, double change,
               const std::vector<const coupling::KeptState *> &path, const LocalModes &there)
 {
@@ -118,7 +118,7 @@ void add_mode(ExtremeSwing &swing, const coupling::Signal &signal, const couplin
   const double          share  = shares.maxCoeff(&most);
   swing.sum                    = shares.sum();
   if (!(share > 0.))
-    return; // positions tell nothing of the force
+    return; // positions do not determine the force
   swing.share   = share;
   swing.mode    = there.numbers[std::size_t(most)];
   swing.mode_hz = there.modes[std::size_t(most)].frequency_hz;
@@ -176,7 +176,7 @@ std::vector<ExtremeSwing> extreme_swings(const std::vector<coupling::Signal> &si
       const Swing  swing = swing_at(time, y, extreme.t);
       const auto   value = [&](double t) { return y[row_before(rows, t)]; };
       const double size  = std::max(std::abs(own.min), std::abs(own.max));
-      // distance of rows, of half a swing: its ends lie within 0.3 % of its amplitude
+      // distance of rows relative to a half-cycle: its ends are then accurate to 0.3 % of the amplitude
       constexpr double of_swing = 0.05;
       // of the largest amount: a turning point so far from an extreme is another one
       constexpr double beside_it = 0.1;

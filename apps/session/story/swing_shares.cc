@@ -12,7 +12,7 @@ namespace gestell::apps
 namespace
 {
 
-/// F at q with the velocities half way between two states, by the motion alone.
+/// F at q with the mean velocities of two states, from the motion alone.
 class ForceBetween
 {
 public:

@@ -15,20 +15,20 @@ namespace gestell::apps
 /// memory allows for a machine of n coordinates.
 std::vector<coupling::SignalExtreme> swing_extremes(const std::vector<coupling::Signal> &signals, int n);
 
-/// The state of that instant, or the nearest one within `reach` [s]; null: none.
+/// The state at that instant, or the nearest one within `reach` [s]; null: none.
 const coupling::KeptState *state_near(const std::vector<coupling::KeptState> &states, double t, double reach);
 
-/// The states from one turning point to the other, in that order and some thirty at most; empty: not all kept.
+/// The states from one turning point to the other, in that order, at most about thirty; empty if some were not kept.
 std::vector<const coupling::KeptState *> states_of_swing(const std::vector<coupling::KeptState> &states, double from,
                                                          double to, double reach);
 
 /**
- * What each mode makes of the change of a force along a path q_0, ..., q_n, by its motion from state to state,
+ * Contribution of each mode to the change of a force along a path q_0, ..., q_n, from its motion between the states,
  *
  *     c_j = sum_k F(q_m + eta v_j/2) - F(q_m - eta v_j/2),   eta = v_j^T M (q_{k+1} - q_k),   q_m = (q_k + q_{k+1})/2,
  *
- * with its sign [unit of F].  Where the modes span the motion their sum is F(q_n) - F(q_0) but for what velocities,
- * time and multipliers of joints make of it.
+ * with its sign [unit of F].  If the modes span the motion, the sum is F(q_n) - F(q_0), except for the effects of
+ * velocities, time and multipliers of joints.
  */
 Eigen::VectorXd swing_changes(const coupling::Signal &signal, const coupling::Machine &machine,
                               const std::vector<coupling::Mode>              &modes,

@@ -10,7 +10,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Instants at which y turns by more than a threshold, each at its extreme.
+/// Instants of extremes of y between which y changes by more than a threshold.
 std::vector<double> turning_points(const std::vector<double> &t, const std::vector<double> &y, double threshold)
 {
   std::vector<double> turns;

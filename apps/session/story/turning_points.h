@@ -5,21 +5,21 @@
 namespace gestell::apps
 {
 
-/// From one turning point of a signal to the next.
+/// A half-cycle of a signal, from one turning point to the next.
 struct Swing
 {
   double half = 0.;              ///< [s] half a period; 0: none
-  double turn = 0., nearby = 0.; ///< [s] the turning points it lies between, `turn` the one at the instant
+  double turn = 0., nearby = 0.; ///< [s] its turning points, `turn` is the one at the given instant
 };
 
 /**
- * Half a period of the vibration of samples y(t) about an instant: between the turning point at `at` and one beside it,
- * of both sides the nearer one: a slow rise is no swing.  Turns smaller than a fifth of the range of y are passed over.
- * @return half = 0 if it does not turn, or not again on either side
+ * Half-cycle of the samples y(t) at an instant: between the turning point at `at` and the nearer of its two neighbours,
+ * so that a slow rise is not taken for a half-cycle.  Oscillations smaller than a fifth of the range of y are ignored.
+ * @return half = 0 if there is no turning point at `at`, or none before and after it
  */
 Swing swing_at(const std::vector<double> &t, const std::vector<double> &y, double at);
 
-/// Its duration.
+/// Duration [s] of this half-cycle.
 double half_period_at(const std::vector<double> &t, const std::vector<double> &y, double at);
 
 } // namespace gestell::apps

@@ -20,8 +20,8 @@ class ModeProblem
 {
 public:
   /// Both matrices must outlive it.
-  /// @param M  [n x n] by coordinates, both triangles stored; of several processes each has a part of the sum.
-  /// @param C  the same; may be none for methods that use M and C^-1 alone.
+  /// @param M  [n x n] by coordinates, both triangles stored; with several processes each has a part of the sum.
+  /// @param C  the same; null for methods that use only M and C^-1.
   ModeProblem(std::shared_ptr<const InverseStiffness> inverse, const Eigen::SparseMatrix<double> &M,
               const Eigen::SparseMatrix<double> *C);
 

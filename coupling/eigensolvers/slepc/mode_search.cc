@@ -20,11 +20,11 @@ namespace gestell::coupling
 namespace
 {
 
-/// A search that starts anew for further modes, orthogonal to those known, as SLEPc does.
+/// A search that restarts for further modes, orthogonal to the known ones, as SLEPc does.
 class DeflatedSearch final : public ModeSearch
 {
 public:
-  /// The lowest `count` modes beside those known, as far as there are so many.
+  /// Finds the lowest `count` modes in addition to the known ones; fewer if there are no more.
   using Further = std::function<LowestModes(int count, const Eigen::MatrixXd &known)>;
 
   /// @param n       rows of the modes
@@ -42,7 +42,7 @@ private:
   int         n_free_;
   Further     further_;
   LowestModes found_;
-  bool        exhausted_ = false; // there were fewer than looked for
+  bool        exhausted_ = false; // the last search found fewer modes than requested
 };
 
 /// Both, in ascending order.
@@ -71,7 +71,7 @@ DeflatedSearch::DeflatedSearch(int n, int n_free, Further further, LowestModes k
 
 void DeflatedSearch::find(int count)
 {
-  constexpr int beyond = 4; // modes that are looked for above those wanted, for a gap
+  constexpr int beyond = 4; // further modes, in which a gap is sought
   const int     most   = std::min(count + beyond, n_free_);
   while (int(found_.omega.size()) < most && !exhausted_)
   {
@@ -103,7 +103,7 @@ int DeflatedSearch::gap_index(int count) const
     const double here = found_.omega(i) / found_.omega(i - 1) - 1.;
     if (here > width)
       widest = i, width = here;
-    constexpr double gap_for_shift = 1e-3; // relative distance of two frequencies that a shift may stand between
+    constexpr double gap_for_shift = 1e-3; // relative distance of two frequencies sufficient for a shift between them
     if (here > gap_for_shift)
       break;
   }
@@ -125,7 +125,7 @@ using Eigen::VectorXd;
 
 constexpr const char *prefix = "reduction_";
 
-/// Hands over what a callback threw, or tells what PETSc did not like.
+/// Rethrows the exception of a callback; otherwise throws the error of PETSc.
 void require_done(const ModeProblem &problem, PetscErrorCode code, const std::string &eigensolver)
 {
   if (problem.failure)
@@ -137,7 +137,7 @@ void require_done(const ModeProblem &problem, PetscErrorCode code, const std::st
                            "); check reduction.eigensolver and PETSC_OPTIONS");
 }
 
-/// Whether options want another solver than the inverse at hand.
+/// Whether the options select a solver other than the available inverse.
 bool wants_other_solver()
 {
   char      name[64] = "";
@@ -214,7 +214,7 @@ public:
   {
     const QuietPetsc quiet;
     const bool       krylov = !is(own_block_lanczos) && !preconditioned();
-    // of the space beyond the modes wanted, at least: a few modes alone make a poor space
+    // least dimension of the space beyond the modes: a space of few modes converges badly
     constexpr int spare_vectors = 20;
     const int     space         = std::min(size(), count + std::max(count, spare_vectors));
     require(EPSSetDimensions(get(), count, krylov ? space : PETSC_DEFAULT, PETSC_DEFAULT));
@@ -228,7 +228,7 @@ public:
     return found;
   }
 
-  /// The lowest `count`; those of several processes by the rows of each.
+  /// The lowest `count` modes; in several processes each has its own rows.
   LowestModes modes(int count) const
   {
     const QuietPetsc quiet;
@@ -253,7 +253,7 @@ public:
     return modes;
   }
 
-  /// Only modes beside these are looked for.
+  /// Further modes are sought orthogonal to these.
   void deflate(const MatrixXd &V)
   {
     std::vector<PetscOwned<Vec>> owned;
@@ -268,7 +268,7 @@ public:
       require(EPSSetDeflationSpace(get(), int(columns.size()), columns.data()));
   }
 
-  /// From a motion that is irregular, but always the same.
+  /// Sets the first motion: irregular, but always the same.
   void set_start()
   {
     const auto x = vector();
@@ -306,7 +306,7 @@ private:
 
   bool preconditioned() const { return is(EPSLOBPCG) || is(EPSGD) || is(EPSJD) || is(EPSRQCG); }
 
-  /// C^-1 by the inverse at hand: as the operator, or as a preconditioner.
+  /// Sets the available inverse C^-1 as the operator or as a preconditioner.
   void set_transformation()
   {
     ST  st  = nullptr;
@@ -356,7 +356,7 @@ private:
   PetscOwned<EPS>    eps_;
 };
 
-/// By the block Lanczos as a type of SLEPc, which goes on from the space it has.
+/// A search by block Lanczos as a type of SLEPc, which continues with the space that it has.
 class ContinuedSearch final : public ModeSearch
 {
 public:
@@ -365,7 +365,7 @@ public:
   {
   }
 
-  void        find(int count) override { solver_.solve(std::max(count, 1)); } // SLEPc looks for one at least
+  void        find(int count) override { solver_.solve(std::max(count, 1)); } // SLEPc needs one at least
   LowestModes modes(int count) const override { return solver_.modes(count); }
   Gap         gap_above(int count) const override { return block_lanczos_of(solver_.get()).gap_above(count); }
 

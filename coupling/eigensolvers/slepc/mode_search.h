@@ -17,7 +17,7 @@ struct ModePencil
 {
   std::shared_ptr<const InverseStiffness> inverse;
   const Eigen::SparseMatrix<double>      *M = nullptr;
-  const Eigen::SparseMatrix<double>      *C = nullptr; ///< none: for methods by M and C^-1 alone
+  const Eigen::SparseMatrix<double>      *C = nullptr; ///< null: for methods that use only M and C^-1
 };
 
 /**
@@ -25,9 +25,9 @@ struct ModePencil
  * inverse.
  *
  * `eigensolver` is "block-lanczos" (our own type), "krylov-schur" or any type of SLEPc; hyphens in the names of SLEPc's
- * types do not count.  Preconditioned ones (lobpcg, gd, jd, rqcg) take the inverse as preconditioner.  Options of
- * PETSc and SLEPc with the prefix reduction_ (PETSC_OPTIONS="-reduction_eps_view") have the last word; a factor or a
- * solver of theirs (-reduction_st_pc_factor_mat_solver_type cholmod) gets copies of C22 and M22, in one process.
+ * types do not count.  Preconditioned ones (lobpcg, gd, jd, rqcg) use the inverse as preconditioner.  Options of PETSc
+ * and SLEPc with the prefix reduction_ (PETSC_OPTIONS="-reduction_eps_view") have priority; a factor or a solver of
+ * theirs (-reduction_st_pc_factor_mat_solver_type cholmod) receives copies of C22 and M22, in one process.
  *
  * @param known  modes found elsewhere, M-orthonormal: only further ones are computed.
  * @throws ConvergenceFailure, also with the messages of PETSc and SLEPc.

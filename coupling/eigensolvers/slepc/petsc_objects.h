@@ -9,7 +9,7 @@
 namespace gestell::coupling
 {
 
-/// PETSc objects that destroy themselves: collectively, where they are of several ranks.
+/// PETSc objects that destroy themselves: collectively, if they belong to several ranks.
 struct DestroyPetsc
 {
   void operator()(Mat x) const { MatDestroy(&x); }
@@ -21,7 +21,7 @@ struct DestroyPetsc
 template <typename T>
 using PetscOwned = std::unique_ptr<std::remove_pointer_t<T>, DestroyPetsc>;
 
-/// While it lives PETSc returns its errors and prints nothing; the innermost message is kept.
+/// During its lifetime PETSc returns its errors and prints nothing; the innermost message is stored.
 class QuietPetsc
 {
 public:

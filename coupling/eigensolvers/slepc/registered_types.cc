@@ -79,7 +79,7 @@ PetscOwned<Mat> shell(MPI_Comm comm, const ModeProblem &problem, PetscErrorCode 
 
 // MatSolverType "gestell"
 
-/// What a factor of PETSc has of ours: the inverse of a problem, or the factor of a matrix of PETSc.
+/// Data of this program in a factor of PETSc: the inverse of a problem, or the factor of a PETSc matrix.
 struct OwnFactor
 {
   const ModeProblem              *problem = nullptr;
@@ -198,7 +198,7 @@ PetscErrorCode solve_columns(Mat F, Mat B, Mat X)
   return code;
 }
 
-/// Of a matrix of PETSc, positive definite or not.
+/// Numbers of negative, zero and positive eigenvalues of a PETSc matrix.
 PetscErrorCode inertia(Mat F, PetscInt *negative, PetscInt *zero, PetscInt *positive)
 {
   OwnFactor &factor = own(F);
@@ -292,7 +292,7 @@ PetscErrorCode solve_by_transformation(ST st, Eigen::Ref<MatrixXd> X)
   return 0;
 }
 
-/// The problem behind the operators: our own, or matrices of PETSc in one process.
+/// Finds the problem of the operators: one of this program, or one made of PETSc matrices in one process.
 PetscErrorCode find_problem(EPS eps)
 {
   OwnSearch &search = own(eps);
@@ -375,7 +375,7 @@ PetscErrorCode search_modes(EPS eps)
   return 0;
 }
 
-/// Into the BV, when they are asked for.
+/// Writes the vectors into the BV when they are requested.
 PetscErrorCode give_vectors(EPS eps)
 {
   OwnSearch &search = own(eps);

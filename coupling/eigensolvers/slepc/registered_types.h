@@ -11,13 +11,13 @@ constexpr const char *own_factor        = "gestell";
 constexpr const char *own_block_lanczos = "block-lanczos";
 
 /**
- * Makes two types of our own known to PETSc and SLEPc; later calls cost nothing.
+ * Registers two types of our own in PETSc and SLEPc; later calls have no effect.
  *
  * MatSolverType "gestell": SparseCholesky, for MATSEQAIJ and MATSEQSBAIJ, with inertia; for the operators below the
- * inverse that their problem has.
+ * inverse of their problem.
  *
- * EPSType "block-lanczos": BlockLanczos, for GHEP with shift-and-invert at the target 0, by whatever solves in the
- * spectral transformation.  Solved again with a larger number of modes it goes on from the space it has.
+ * EPSType "block-lanczos": BlockLanczos, for GHEP with shift-and-invert at the target 0, with the solver of the
+ * spectral transformation.  If it is solved again with a larger number of modes it continues with its space.
  */
 void register_own_types();
 
@@ -25,7 +25,7 @@ void register_own_types();
 PetscOwned<Mat> stiffness_operator(MPI_Comm comm, const ModeProblem &problem);
 PetscOwned<Mat> mass_operator(MPI_Comm comm, const ModeProblem &problem);
 
-// Of an EPS of the type "block-lanczos":
+// For an EPS of the type "block-lanczos":
 
 /// @param known  modes [coordinates x k] that are part of the space from the start.
 void set_block_lanczos(EPS eps, const BlockLanczos::Options &options, const LowestModes &known);

@@ -49,7 +49,7 @@ void combine(const Eigen::MatrixXd &D, double *__restrict predicted, double *__r
   }
 }
 
-/// `lanes` components at once: that columns do not overlap is known to us alone.
+/// Processes `lanes` components at once: the compiler cannot know that columns do not overlap.
 template <int order, int lanes>
 void append_lanes(double *d, Eigen::Index n, const double *difference)
 {
@@ -103,7 +103,7 @@ void BackwardDifferences::push(int order, const Eigen::VectorXd &difference)
 {
   constexpr decltype(&append<1>) appends[] = {append<1>, append<2>, append<3>, append<4>, append<5>, append<6>};
   appends[order - 1](D_, difference.data());
-  known_ = order + (known_ > order ? 2 : 1); // what is beyond was made from a difference that was not known
+  known_ = order + (known_ > order ? 2 : 1); // higher ones depend on an unknown difference
 }
 
 /**

@@ -12,7 +12,7 @@ namespace gestell::coupling
  *
  *     D_0 = z_n,   D_j = nabla^j z_n,   z(t_n + s h) = sum_j D_j s (s + 1) .. (s + j - 1) / j!
  *
- * BDF of order k, sum_{j=1..k} nabla^j z / j = h z', with gamma_j = 1 + 1/2 + ... + 1/j, reads in them
+ * In these differences BDF of order k, sum_{j=1..k} nabla^j z / j = h z', with gamma_j = 1 + 1/2 + ... + 1/j, is
  *
  *     h_b z'_{n+1} = z_{n+1} - h^z,   h_b = h / gamma_k,   h^z = sum_{j<k} (1 - gamma_j / gamma_k) D_j,
  *
@@ -22,7 +22,7 @@ namespace gestell::coupling
 class BackwardDifferences
 {
 public:
-  static constexpr int highest = 8; ///< difference kept, for order 6
+  static constexpr int highest = 8; ///< highest difference stored, for order 6
 
   void resize(Eigen::Index size);
 
@@ -38,9 +38,9 @@ public:
   /// z(t_n + s h) by the polynomial of a degree, components first .. first + x.size() - 1.
   void at(double s, int degree, Eigen::Index first, Eigen::Ref<Eigen::VectorXd> x) const;
 
-  /// The next instant, with nabla^{order+1} z there.
+  /// Adds the next instant, with nabla^{order+1} z there.
   void push(int order, const Eigen::VectorXd &difference);
-  /// Instants ratio h apart, on the polynomial of a degree <= known(), which is then all that is known.
+  /// Resamples the polynomial of a degree <= known() at instants `ratio` h apart; afterwards only this degree is known.
   void rescale(double ratio, int degree);
 
   template <typename Archive>

@@ -86,7 +86,7 @@ void Bdf::set(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
   point.u_rate.noalias() = system_.forces().directions().transpose() * v;
 }
 
-/// Starts at past(0), of which q, v, u, u' are known.
+/// Starts at past(0), with known q, v, u, u'.
 void Bdf::begin_from(double t)
 {
   implicit_.forget_contraction();
@@ -122,7 +122,7 @@ void Bdf::begin_from(double t)
   else
   {
     ++work_.evaluations;
-    if (depend_on_accelerations(system_, local_)) // the first row tells forces as those behind it do
+    if (depend_on_accelerations(system_, local_)) // the first row must contain forces like the later ones
       find_implied(first);
   }
   virtual_rates_.settle(first.q, first.v, local_);
@@ -135,7 +135,7 @@ bool Bdf::is_implied() const
   return system_.joints().n_rows() > 0 || !system_.forces().held().empty();
 }
 
-/// Where M is singular there is no acceleration, and the first step finds the forces.
+/// With a singular M there is no acceleration, and the first step determines the forces.
 bool Bdf::has_consistent()
 {
   if (!consistent_ && !massless_)
@@ -150,7 +150,7 @@ bool Bdf::has_consistent()
   return consistent_ != nullptr;
 }
 
-/// Forces that hold a measure or close a joint, from the equation of motion at a point.
+/// Forces of sticking measures and joints, from the equation of motion at a point.
 void Bdf::find_implied(Point &point)
 {
   if (!has_consistent())
@@ -162,7 +162,7 @@ void Bdf::find_implied(Point &point)
   point.lambda = local_.lambda;
 }
 
-/// Something is held, and the equation of motion tells by which force.
+/// Whether a measure sticks, and the equation of motion gives its force.
 bool Bdf::finds_held() const
 {
   return consistent_ && !system_.forces().held().empty();
@@ -178,7 +178,7 @@ void Bdf::restart()
   begin_from(past(0).t);
 }
 
-/// The measures of a point become those of the present instant.
+/// Copies the measures of a point to the present instant.
 void Bdf::present(const Point &point)
 {
   local_.t      = point.t;
@@ -234,7 +234,7 @@ void Bdf::advance()
 
 void Bdf::cut(double t)
 {
-  if (!(t > step_begin())) // the step is rejected: nothing of its end, which may be no number, counts
+  if (!(t > step_begin())) // the step is rejected: its end, which may not be finite, is ignored
   {
     cut_point_ = past(n_past_ > 1 ? 1 : 0);
     cut_       = true;
@@ -250,7 +250,7 @@ void Bdf::cut(double t)
   cut_point_.a      = base_.a;
   cut_point_.p      = base_.p;
   cut_point_.lambda = base_.lambda;
-  if (system_.joints().n_rows() > 0) // multipliers as accurate as q and q': a limiter may look at them
+  if (system_.joints().n_rows() > 0) // multipliers with the accuracy of q and q': a limiter may use them
     find_implied(cut_point_);
   cut_ = true;
   present(cut_point_);
@@ -290,7 +290,7 @@ void Bdf::multistep(double t)
   }
 }
 
-/// By extrapolation, one order above what the first points give.
+/// Predicts by extrapolation, one order higher than that of the first points.
 void Bdf::predict(Eigen::VectorXd Point::*x, Eigen::VectorXd Point::*rate, Eigen::VectorXd &to) const
 {
   if (n_past_ >= 3)
@@ -395,8 +395,8 @@ void Bdf::euler_chain(const Point &from, double length, int n, Point &to)
 
 void Bdf::start_value(double t)
 {
-  // One order more for BDF 2: behind an event the acceleration may begin at zero (breaking away from rest), and then
-  // the displacement of the first step is all local error.
+  // One order more for BDF 2: after an event the acceleration may start at zero (slip from rest), and then the
+  // displacement of the first step consists of local error.
   const int          order = options_.order == 2 ? 3 : options_.order;
   const double       h     = options_.step;
   std::vector<Point> table(order, past(0)); // Neville's table, newest column in place

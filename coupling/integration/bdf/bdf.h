@@ -17,21 +17,21 @@ namespace gestell::coupling
 /**
  * BDF (Gear) of order p = 1..6 with fixed step in the form (5.5.2/4-13).
  *
- * With w = M q' + B q (the book's v) and h^q, h^w from the past by (5.5.2/8):
+ * With w = M q' + B q (v in the book) and h^q, h^w from past points by (5.5.2/8):
  *
  *     A q_k = M h^q + h_beta h^w + h_beta^2 (f_t + W p),     A = M + h_beta B + h_beta^2 C      (5.5.2/12, 13)
  *     q'_k  = (q_k - h^q)/h_beta,     w_k = h_beta (f_t + W p - C q_k) + h^w                    (5.5.2/6, 10)
  *
  * Self-starting: the first p - 1 points come from implicit Euler steps h/1, h/2, ... extrapolated to order p, so the
- * order is kept from the start.  Orders 1 and 2 are stable for every damped mode; orders 3 to 6 are not.
- * Ideal joints enter as g = 0 at the new point (index 3): the order is kept in q and q'.  Their multipliers need as
- * many points as the formula has behind every start, and are therefore taken from g'' = 0 there (ConsistentStart).
+ * order is kept from the start. Orders 1 and 2 are stable for every damped mode; orders 3 to 6 are not. Ideal joints
+ * enter as g = 0 at the new point (index 3): the order is kept in q and q'. The multipliers of the formula are accurate
+ * only after as many points as it has; after every start they are therefore computed from g'' = 0 (ConsistentStart).
  *
- * The force that holds a measure follows from the equation of motion at q and q', at ends of steps and inside
+ * The force of a sticking measure follows from the equation of motion at q and q', at ends of steps and inside
  * (ConsistentStart::hold()).
  *
- * A step in which Newton fails is divided: two implicit Euler steps of half the length, each divided again up to
- * max_halvings times; the grid stays as it was.
+ * A step in which Newton fails is divided into two implicit Euler steps of half the length, each divided again up to
+ * max_halvings times; the grid is unchanged.
  */
 class Bdf : public TimeIntegrator, public Resumable
 {
@@ -48,9 +48,9 @@ public:
   Bdf(const SecondOrderSystem &system, const Options &options);
 
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
-  /// Continues a motion that is known at t and at steps before: q[i], v[i] [n] at t - i h.  As many points as the order
-  /// has (at most 7) make steps of the start unnecessary.
-  /// @throws std::invalid_argument for no points, too many, or not as many q as v
+  /// Continues a motion that is known at t and at earlier steps: q[i], v[i] [n] at t - i h.  With as many points as the
+  /// order (at most 7) no starting steps are needed.
+  /// @throws std::invalid_argument for no points, too many, or different numbers of q and v
   void begin(double t, const std::vector<Eigen::VectorXd> &q, const std::vector<Eigen::VectorXd> &v);
   void advance() override;
 
@@ -94,7 +94,7 @@ private:
   int          interpolation_points(double *t, const Point **points) const;
   int          value_weights(double t, double *weights) const;
 
-  static constexpr int capacity = 8; ///< points kept: up to 6 past ones, the new one, one spare
+  static constexpr int capacity = 8; ///< points stored: up to 6 past ones, the new one, one spare
 
   const SecondOrderSystem    &system_;
   Options                     options_;
@@ -114,8 +114,8 @@ private:
   mutable Eigen::VectorXd     q_inside_, v_inside_;
   bool                        load_known_ = false;
 
-  std::unique_ptr<ConsistentStart> consistent_;       ///< made where a measure is held first, or for joints
-  bool                             massless_ = false; ///< M is singular: there is none
+  std::unique_ptr<ConsistentStart> consistent_;       ///< created when a measure first sticks, or for joints
+  bool                             massless_ = false; ///< M is singular: there is no consistent start
 };
 
 } // namespace gestell::coupling

@@ -34,14 +34,14 @@ BdfControlled::Options checked(BdfControlled::Options           o, const SecondO
   if (const double omega = slowest_elastic(spectrum); o.largest_step == 0. && std::isfinite(omega))
     o.largest_step = 1. / omega;
   require(o.largest_step > 0. && std::isfinite(o.largest_step), "largest_step [s]", o.largest_step, "positive");
-  constexpr int rungs_below = 40; // of the ladder, if no smallest step is given: 1e-12 of the largest
+  constexpr int rungs_below = 40; // levels below the largest step, if no smallest step is given: 1e-12 of the largest
   if (o.smallest_step == 0.)
     o.smallest_step = std::ldexp(o.largest_step, -rungs_below);
   constexpr int most_rungs_below = 60; // 2^-60 is below the rounding of a time
   require(o.smallest_step <= o.largest_step && o.smallest_step >= std::ldexp(o.largest_step, -most_rungs_below),
           "smallest_step [s]", o.smallest_step, "between 2^-60 and 1 of the largest one");
-  o.newton.joints                = JointSolver::condensed; // its S is looked at
-  constexpr double newton_part   = 1e-2;  // of the tolerance: errors of Newton count little beside those of steps
+  o.newton.joints                = JointSolver::condensed; // its S is used
+  constexpr double newton_part   = 1e-2;  // of the tolerance: errors of Newton are small compared with those of steps
   constexpr double finest_newton = 1e-12; // rounding of residuals
   o.newton.tolerance             = std::max(newton_part * o.tolerance, finest_newton);
   if (o.fixed_order)
@@ -144,7 +144,7 @@ void BdfControlled::begin(double t, const Eigen::VectorXd &q, const Eigen::Vecto
   load_known_              = false;
   cut_                     = false;
   barred_                  = 0;
-  constexpr int first_rung = 5; // tried at the begin of a run: 1/32 of the largest step
+  constexpr int first_rung = 5; // first level at the start of a run: 1/32 of the largest step
   rung_                    = first_rung;
   while (rung_ > 1 && step_of(rung_) < options_.smallest_step)
     --rung_;
@@ -170,7 +170,7 @@ void BdfControlled::restart()
     follow = depend_on_accelerations(system_, local_);
   }
   if (follow && has_consistent())
-    close_joints(); // and the accelerations on which forces depend
+    close_joints(); // also for the accelerations on which forces depend
   virtual_rates_.settle(z_.head(n_), z_.segment(n_, n_), local_);
   z_.segment(2 * n_ + n_u_, n_u_) = local_.v;
   keep_forces(z_);
@@ -187,7 +187,7 @@ bool BdfControlled::is_implied() const
   return n_c_ > 0 || !system_.forces().held().empty();
 }
 
-/// Where M is singular there is no acceleration, and the first step finds the forces.
+/// With a singular M there is no acceleration, and the first step determines the forces.
 bool BdfControlled::has_consistent()
 {
   if (!consistent_ && !massless_)
@@ -202,13 +202,13 @@ bool BdfControlled::has_consistent()
   return consistent_ != nullptr;
 }
 
-/// Something is held, and the equation of motion tells by which force.
+/// Whether a measure sticks, and the equation of motion gives its force.
 bool BdfControlled::finds_held() const
 {
   return consistent_ && !system_.forces().held().empty();
 }
 
-/// What holds a measure or closes a joint at an instant is no law's value, but follows from the equation of motion.
+/// Forces of sticking measures and joints at an instant follow from the equation of motion, not from a law.
 void BdfControlled::find_implied(Eigen::VectorXd &z, double t)
 {
   if (!has_consistent())
@@ -223,7 +223,7 @@ void BdfControlled::find_implied(Eigen::VectorXd &z, double t)
   keep_forces(z);
 }
 
-/// u'', p, lambda of the present instant.
+/// Stores u'', p and lambda of the present instant.
 void BdfControlled::keep_forces(Eigen::VectorXd &z) const
 {
   z.segment(2 * n_ + 2 * n_u_, n_u_) = local_.a;
@@ -231,7 +231,7 @@ void BdfControlled::keep_forces(Eigen::VectorXd &z) const
   z.tail(n_c_)                       = local_.lambda;
 }
 
-/// z_ and the present instant onto g = 0, g' = 0, with the forces that belong to them.
+/// Projects z_ and the present instant onto g = 0, g' = 0, and computes the forces there.
 void BdfControlled::close_joints()
 {
   h_q_ = z_.head(n_);
@@ -244,7 +244,7 @@ void BdfControlled::close_joints()
   consistent_->solve(h_q_, h_v_, product_, local_, work_);
 }
 
-/// In the measure of ErrorScale.
+/// Error in the norm of ErrorScale.
 double BdfControlled::error_of(const Eigen::Ref<const Eigen::VectorXd> &z) const
 {
   if (n_c_ > 0)
@@ -327,14 +327,14 @@ void BdfControlled::interpolate(double t, LocalState &state) const
     return solve_inside(t, state);
   if (!finds_held())
     return;
-  // By their values alone: q'' of modes that the step does not resolve would be that of the cubic.
+  // Interpolates values only: q'' of modes that the step does not resolve would be that of the cubic.
   differences_.at(s, degree, 0, q_inside_);
   differences_.at(s, degree, n_, v_inside_);
   consistent_->hold(q_inside_, v_inside_, state, work_);
 }
 
-/// Three instants of a start give the forces of joints a parabola, its motion a quintic; afterwards loads may change
-/// faster than the motion, which alone controls the step.  So the forces are computed from the motion.
+/// Three instants of a start give a parabola for the forces of joints, a quintic for the motion; afterwards loads may
+/// change faster than the motion, which alone controls the step.  Therefore the forces are computed from the motion.
 void BdfControlled::solve_inside(double t, LocalState &state) const
 {
   IntegrationWork work; // of looking, not of the step
@@ -380,7 +380,7 @@ void BdfControlled::motion_at(double t, const std::vector<int> &coordinates, Eig
 
 void BdfControlled::cut(double t)
 {
-  if (!(t > t_begin_)) // nothing is left of the step
+  if (!(t > t_begin_)) // the cut removes the whole step
     z_cut_ = z_begin_;
   else
   {
@@ -392,7 +392,7 @@ void BdfControlled::cut(double t)
   cut_ = true;
   present(z_cut_, t);
   if (is_implied() &&
-      t > t_begin_) // as they will be at the restart, so that what breaks away does not stick again at once
+      t > t_begin_) // as at the restart, so that a measure that breaks away does not stick again at once
     find_implied(z_cut_, t);
   system_.forces().derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;

@@ -14,63 +14,63 @@ namespace gestell::coupling
 {
 
 /**
- * BDF with controlled step and order, on the equations and the condensed step of Bdf.
+ * BDF with variable step and order, with the equations and the condensed step of Bdf.
  *
- * Steps are h_max / 2^rung and change by powers of two only, so that a factorisation, one per rung and order, is found
- * again whenever the step returns.  Between changes the step is constant: BDF in backward differences of q, q' and of
- * the measures, which a change of step multiplies by a small triangular matrix (BackwardDifferences).  With q' in place
- * of w = M q' + B q, and with the change x = h_b^2 q'' as the unknown, the equation of the step (5.5.2/12) reads
+ * Steps are h_max / 2^rung and change only by powers of two, so that a factorisation, one per level and order, is
+ * reused whenever a step length returns. Between changes the step is constant: BDF in backward differences of q, q' and
+ * of the measures, which a change of step multiplies by a small triangular matrix (BackwardDifferences). With q' in
+ * place of w = M q' + B q, and with the change x = h_b^2 q'' as the unknown, the equation of the step (5.5.2/12) reads
  *
  *     (M + h_b B + h_b^2 C) x = h_b^2 (f_t + W p - B h^{q'} - C (h^q + h_b h^{q'})),
  *     q = h^q + h_b h^{q'} + x,     q' = h^{q'} + x / h_b,
  *
- * in which rounding takes nothing away when h_b^2 C is small beside M, and the error of velocities is at hand.
+ * which has no cancellation if h_b^2 C is small compared with M, and which gives the error of velocities.
  *
- * Error.  The local error of order k, nabla^{k+1} / (gamma_k (k + 1)) of q, q', u, u', in the measure of ErrorScale,
- * must not exceed the tolerance.  A step is refused if it does, or if Newton's method fails; then everything is as
- * before it (but see ErrorScale::refuse()), and it is tried with half the length or less.  Two refusals lower the order
- * to 2, three start anew.  The step grows, by up to three rungs at once, after k + 1 steps of equal length, and only if
- * the error expected is below 0.3 of the tolerance, so that it does not come back at once.
+ * Error. The local error of order k, nabla^{k+1} / (gamma_k (k + 1)) of q, q', u, u', in the norm of ErrorScale, must
+ * not exceed the tolerance. Otherwise, or if Newton's method fails, the step is rejected; the state before it is
+ * restored (but see ErrorScale::refuse()), and the step is repeated with half the length or less. Two rejections reduce
+ * the order to 2, three cause a restart. The step grows, by up to three levels at once, after k + 1 steps of equal
+ * length, and only if the predicted error is below 0.3 of the tolerance, so that it is not reduced again immediately.
  *
- * Order.  With every growth orders k - 1, k + 1 and 2 are looked at as well.  From order 3 on BDF makes lightly damped
- * modes grow where omega h is neither small nor very large, so at each rung only orders are used for which no mode of
- * the base system grows (BdfOrderLimit): frames with damping of 1 % stay at order 2 unless omega h of
- * their highest mode is below 0.34 (orders 3 and 4) or 0.71 (order 5).  Closed contacts change the spectrum; what grows
- * then shows in the error, and refusals lower the order.  With fixed_order this rule does not hold: the caller has
- * looked.
+ * Order.  Whenever the step grows, orders k - 1, k + 1 and 2 are also examined.  BDF of order 3 and above makes lightly
+ * damped modes grow if omega h is neither small nor very large.  Therefore at each level only orders are used for which
+ * no mode of the base system grows (BdfOrderLimit): frames with damping of 1 % remain at order 2 unless omega h of
+ * their highest mode is below 0.34 (orders 3 and 4) or 0.71 (order 5).  Closed contacts change the spectrum; growth
+ * then appears in the error, and rejections reduce the order.  With fixed_order this rule does not apply: the caller is
+ * responsible.
  *
  * Start, and restart at events.  Chains of one, two and four implicit Euler steps over the same length, extrapolated to
- * third order, give three points: BDF2 goes on from there at once with half that length.  Their local error, tested as
- * that of any step, is that of the extrapolation to second order.  They resolve the stiffness that the event brings.  A
- * fixed order above 2 is reached within a few steps, which are as small as the tolerance makes order 2.
+ * third order, give three points, from which BDF2 continues with half that length.  Their local error, tested like that
+ * of any step, is that of the extrapolation to second order.  They resolve the stiffness after the event.  A fixed
+ * order above 2 is reached within a few steps, whose length the tolerance determines for order 2.
  *
- * Newton's tolerance is 1e-2 of the error tolerance, and not below 1e-12.
+ * Newton's tolerance is 1e-2 of the error tolerance, but at least 1e-12.
  *
- * Ideal joints enter as g = 0 at the new point (index 3), condensed to the measures.  A change of step leaves
- * velocities in the directions that joints hold with errors of one order less, and multipliers of two: the local error
- * is that of positions alone then, and multipliers that somebody looks at come from g'' = 0.
+ * Ideal joints enter as g = 0 at the new point (index 3), condensed to the measures.  A change of step reduces the
+ * order of velocities in constrained directions by one, and that of multipliers by two: the local error is then that of
+ * positions only, and multipliers, if requested, are computed from g'' = 0.
  *
- * The force that holds a measure follows from the equation of motion at q and q', at ends of steps and inside
- * (ConsistentStart::hold()): what the formula tells of it has, behind a change of step, errors of one order less.
+ * The force of a sticking measure follows from the equation of motion at q and q', at ends of steps and inside
+ * (ConsistentStart::hold()): the formula's own value loses one order after a change of step.
  *
  * Dense output: cubic Hermite through u, u' (q, q') at both ends for orders 1 and 2, quintic through the three points
- * of a start; the polynomial of degree k + 1 from order 3 on.
+ * of a start; the polynomial of degree k + 1 for order 3 and above.
  */
 class BdfControlled : public TimeIntegrator, public ErrorControl, public Resumable
 {
 public:
   struct Options
   {
-    double        tolerance     = 1e-4;  ///< of the local error for the way gone, see ErrorScale; 1e-13 .. 0.1
+    double        tolerance     = 1e-4;  ///< of the local error per range of motion, see ErrorScale; 1e-13 .. 0.1
     double        largest_step  = 0.;    ///< h_max [s]; 0: 1 / omega of the slowest elastic mode
     double        smallest_step = 0.;    ///< [s]; 0: 2^-40 of the largest
     int           max_order     = 5;     ///< 1..6
-    int           min_order     = 0;     ///< 1..max_order; 0: 2, as implicit Euler damps too much, or max_order if less
-    bool          fixed_order   = false; ///< max_order throughout
+    int           min_order     = 0;     ///< 1..max_order; 0: 2 (implicit Euler damps too much), or max_order if less
+    bool          fixed_order   = false; ///< always max_order
     NewtonOptions newton{};              ///< max_iterations; the tolerance follows from that of the error
   };
 
-  /// @throws std::invalid_argument naming the option, its value and what it may be
+  /// @throws std::invalid_argument with the option, its value and the allowed range
   BdfControlled(const SecondOrderSystem &system, const Options &options);
 
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
@@ -90,14 +90,14 @@ public:
   bool                   controls_error() const override { return true; }
   void                   expect(double way, double speed) override { scale_.expect(way, speed); }
 
-  /// Order and length [s] of the step to come.
+  /// Order and length [s] of the next step.
   int    order() const { return order_; }
   double step() const { return step_of(rung_); }
 
 private:
   BdfControlled(const SecondOrderSystem &system, const Options &options, const std::vector<SpectrumLine> &spectrum);
 
-  /// What happened to a step that was tried.
+  /// Result of a tried step.
   struct Trial
   {
     bool   solved = false; ///< Newton converged
@@ -143,16 +143,16 @@ private:
   BdfOrderLimit                    limit_;
   ImplicitStep                     implicit_;
   VirtualRates                     virtual_rates_;
-  std::unique_ptr<ConsistentStart> consistent_;       ///< once a measure is held
+  std::unique_ptr<ConsistentStart> consistent_;       ///< created when a measure first sticks
   bool                             massless_ = false; ///< M is singular: no consistent start
   mutable IntegrationWork          work_;
   Eigen::Index                     n_, n_u_, n_c_; ///< z = (q, q', u, u', u'', p, lambda) [2 n + 4 n_u + n_c]
   BackwardDifferences              differences_;
   int                              order_ = 1, rung_ = 0;
-  int                              wanted_order_ = 1, wanted_rung_ = 0; ///< from the next step on
-  int                              since_change_ = 0;                   ///< steps of this length and order
-  int                              barred_       = 0;                   ///< steps for which orders above 2 are not used
-  bool                             fresh_        = true;                ///< the past is forgotten
+  int                              wanted_order_ = 1, wanted_rung_ = 0; ///< for the next step
+  int                              since_change_ = 0;                   ///< number of steps with this length and order
+  int                              barred_       = 0;                   ///< steps without orders above 2
+  bool                             fresh_        = true;                ///< there are no past points
   bool                             started_      = false;               ///< the last step was a start
   bool                             cut_          = false;
   double                           anchor_       = 0.; ///< t_n = anchor + steps * h
@@ -173,8 +173,8 @@ private:
   mutable LocalState               inside_;
   Eigen::VectorXd                  lambda_size_;           ///< [n_c] largest so far
   double                           fastest_load_  = 0.;    ///< [rad/s]
-  bool                             solves_inside_ = false; ///< multipliers change more in a step than polynomials tell
-  Eigen::VectorXd                  no_v_, no_rate_;        ///< zeros, for errors of positions alone [n], [n_u]
+  bool                             solves_inside_ = false; ///< multipliers vary too much in a step for polynomials
+  Eigen::VectorXd                  no_v_, no_rate_;        ///< zeros, for errors of positions only [n], [n_u]
 };
 
 } // namespace gestell::coupling

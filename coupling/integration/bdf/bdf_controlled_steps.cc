@@ -4,14 +4,14 @@
 #include <cmath>
 #include <sstream>
 
-// Steps that are tried, and what follows from their errors.
+// Trial steps, and the choice of the next step from their errors.
 
 namespace gestell::coupling
 {
 
 namespace
 {
-constexpr int    highest_growth = 3;   ///< rungs at once: eight times the step
+constexpr int    highest_growth = 3;   ///< levels at once: eight times the step
 constexpr double safety         = 0.3; ///< of the tolerance, that an error expected may reach: few steps are refused
 
 } // namespace
@@ -41,7 +41,7 @@ void BdfControlled::advance()
   present(z_, t_end_);
 }
 
-/// Iterates that ran away have enlarged the excursions by which Newton's tolerance is measured: they are counted anew.
+/// Diverged iterates have increased the excursions that scale Newton's tolerance; the old excursions are restored.
 void BdfControlled::newton_failed(const ConvergenceFailure &failure)
 {
   reason_       = failure.what();
@@ -108,7 +108,7 @@ void BdfControlled::multistep()
     find_implied(z_, t_end_);
     difference_.tail(2 * n_u_ + n_c_) = z_.tail(2 * n_u_ + n_c_) - predicted_.tail(2 * n_u_ + n_c_);
   }
-  // From pi per step on, the values of a harmonic load at the ends of steps do not determine it inside.
+  // With a phase of pi per step or more, the values of a harmonic load at the ends of steps do not determine it inside.
   lambda_size_                = lambda_size_.cwiseMax(z_.tail(n_c_).cwiseAbs());
   constexpr double unforeseen = 1e-4; // of a multiplier's largest: inside the step polynomials miss a tenth of it
   solves_inside_              = fastest_load_ * step_of(rung_) > 1. ||
@@ -120,13 +120,13 @@ void BdfControlled::multistep()
   choose();
 }
 
-/// A step was refused: how much shorter the next one, and of which order.  The error goes with h^exponent.
+/// After a rejected step: reduction of the next step, and its order.  The error is proportional to h^exponent.
 void BdfControlled::refuse(const Trial &trial, double exponent)
 {
   int rungs = 1;
   if (trial.solved && is_sound(trial.h_beta))
     scale_.refuse();
-  constexpr int deepest_fall = 6; // rungs at once, in a start: a 64th of the step
+  constexpr int deepest_fall = 6; // levels at once, in a start: a 64th of the step
   if (trial.solved)
     rungs = std::clamp(static_cast<int>(std::ceil(std::log2(trial.error / safety) / exponent)), 1,
                        fresh_ ? deepest_fall : highest_growth);
@@ -144,14 +144,14 @@ void BdfControlled::refuse(const Trial &trial, double exponent)
   }
 }
 
-/// Of the last step, had it been of this order.
+/// Error of the last step, had it been of this order.
 double BdfControlled::error_of_order(int order) const
 {
   return error_of(differences_[order + 1]) / (bdf_gamma(order) * (order + 1) * options_.tolerance);
 }
 
-/// By how many rungs a step of this order may grow, for an error that lets hope for `gain`; -1: it may not be used at
-/// all.
+/// Number of levels by which a step of this order may grow, for an error with the margin `gain`; -1: the order must not
+/// be used.
 int BdfControlled::growth(int order, double gain)
 {
   int rungs = std::min({highest_growth, rung_, std::max(0, std::ilogb(gain))});
@@ -160,7 +160,7 @@ int BdfControlled::growth(int order, double gain)
   return order == order_ ? std::max(rungs, 0) : rungs;
 }
 
-/// Order and length of the next step, once enough steps of this length tell.
+/// Chooses order and length of the next step, after enough steps of this length.
 void BdfControlled::choose()
 {
   wanted_rung_  = rung_;
@@ -173,7 +173,7 @@ void BdfControlled::choose()
     return;
   }
   double best = 0., gain_here = 0.;
-  // Order 2 too: it is the way out where a higher one may not be used with longer steps.
+  // Order 2 is always included: it remains if a higher order is not allowed with longer steps.
   for (const int order : {order_, order_ - 1, order_ + 1, order_ > 3 ? 2 : 0})
   {
     if (order < options_.min_order || order > options_.max_order || order + 1 > differences_.known() || order == 0 ||
@@ -184,7 +184,7 @@ void BdfControlled::choose()
     const int    rungs = growth(order, gain);
     if (rungs < 0)
       continue;
-    // Among steps that end on the same rung the present order, unless another one lets hope for more.
+    // Among steps on the same level the present order is kept, unless another one has a larger margin.
     double           worth          = std::ldexp(1., rungs);
     constexpr double worth_an_order = 1.3; // factor of the step expected, for which the order is raised
     if (order == order_)
@@ -217,15 +217,15 @@ void BdfControlled::change(int rung, int order)
   since_change_ = 0;
 }
 
-/// Where a force falls with the motion (dp/du > 0), the equation of a step has a pole, I - S dp singular, and near it
-/// and beyond it solutions that have nothing to do with the motion.  All pivots of I - S dp at the begin of the step
-/// being above a quarter, the solution goes at most some four times as far as it should.
+/// If a force decreases with the motion (dp/du > 0), the equation of a step has a pole, I - S dp singular, and near it
+/// and beyond it spurious solutions.  If all pivots of I - S dp at the start of the step are above a quarter, the
+/// solution is at most about four times as large as it should be.
 bool BdfControlled::is_sound(double h_beta)
 {
   const double   inverse = 1. / h_beta, squared = h_beta * h_beta;
   const StepForm form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
   const auto    &S = implicit_.condensed(form, work_).S;
-  dp_du_.setZero(); // what sticks writes nothing
+  dp_du_.setZero(); // sticking measures write nothing
   dp_dv_.setZero();
   point(z_begin_, t_end_, local_);
   system_.forces().derivatives(local_, base_.p, dp_du_, dp_dv_);
@@ -289,7 +289,7 @@ BdfControlled::Trial BdfControlled::try_start(double h)
 }
 
 /// A stiffness that appears at an event (a contact closes) may be far above all before.  Implicit Euler steps that do
-/// not resolve it would damp its motion away, and all chains alike, so that their difference does not tell.  With S,
+/// not resolve it would damp its motion, and all chains equally, so that their difference does not show it.  With S,
 /// the compliance over a step, S dp/du = (omega h)^2.
 void BdfControlled::resolve_stiffness()
 {
@@ -311,8 +311,8 @@ void BdfControlled::resolve_stiffness()
   stiffness_.setZero();
 }
 
-/// Half of the way of a start from the velocities, which are known to second order there: one order better than the
-/// extrapolation of two chains, behind a break-away (q ~ t^3) the first that is right at all.
+/// Takes half of the displacement of a start from the velocities, which are known to second order there: one order
+/// better than the extrapolation of two chains, and after a break-away (q ~ t^3) the first correct value.
 void BdfControlled::improve_middle()
 {
   const double part   = 2. * step_of(rung_) / 24.;
@@ -350,7 +350,7 @@ void BdfControlled::start()
     find_implied(middle_[2], t_end_ + step_of(rung_));
     find_implied(z_, t_end_ + 2. * step_of(rung_));
   }
-  // u'' and p at the begin may be those of another branch: they follow from the motion, or continue what comes.
+  // u'' and p at the start may be those of another branch: they follow from the motion, or are extrapolated backwards.
   chain_[0] = z_begin_;
   if (is_implied() && has_consistent())
     find_implied(chain_[0], t_end_);

@@ -17,7 +17,7 @@ int Bdf::interpolation_points(double *t, const Point **points) const
   return n;
 }
 
-/// Weights of the newest points, one more than the order has, with which their values give one at t.
+/// Weights of the newest points, one more than the order, for the interpolated value at t.
 int Bdf::value_weights(double t, double *weights) const
 {
   const int n = std::min(n_past_, options_.order + 1);
@@ -58,7 +58,7 @@ void Bdf::interpolate(double t, LocalState &state) const
   }
   if (!finds_held())
     return;
-  // By their values alone: q'' of modes that the step does not resolve would be that of the cubic.
+  // Interpolates values only: q'' of modes that the step does not resolve would be that of the cubic.
   q_inside_.setZero();
   v_inside_.setZero();
   for (int i = 0; i < n_L; ++i)

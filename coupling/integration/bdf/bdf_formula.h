@@ -5,8 +5,8 @@
 namespace gestell::coupling
 {
 
-/// BDF formula of order p, (5.5.2/6):  h beta0 y'_k = y_k + sum_{i=1..p} alpha[i-1] y_{k-i}.
-/// With h_beta = beta0 h this leads to the matrix A = M + h_beta B + h_beta^2 C, (5.5.2/13).
+/// BDF formula of order p, (5.5.2/6):  h beta0 y'_k = y_k + sum_{i=1..p} alpha[i-1] y_{k-i}. With h_beta = beta0 h the
+/// matrix of a step is A = M + h_beta B + h_beta^2 C, (5.5.2/13).
 struct BdfFormula
 {
   double                beta0;

@@ -17,7 +17,7 @@ namespace
 constexpr int highest_order = 5;
 
 /// BDF of order p in w = 1 - 1/r:  sum_{j=1..p} w^j / j = mu, and ln r = -ln(1 - w) = mu + sum_{j>p} w^j / j, which
-/// tells the growth of the principal root without cancellation.
+/// gives the growth of the principal root without cancellation.
 void add_bdf_roots(int order, LongComplex mu, std::vector<CharacteristicRoot> &roots)
 {
   std::vector<LongComplex> polynomial(order + 1);

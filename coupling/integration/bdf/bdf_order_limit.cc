@@ -15,7 +15,7 @@ namespace gestell::coupling
 bool bdf_decays(int order, const SpectrumLine &mode, double h)
 {
   using Complex                  = std::complex<double>;
-  constexpr double       radius  = 1. + 1e-9; // roots on the unit circle are stable, but for rounding
+  constexpr double       radius  = 1. + 1e-9; // roots on the unit circle are stable, up to rounding
   const BdfFormula      &formula = bdf_formulas[order - 1];
   const Complex          s       = mode.omega * (-mode.zeta + std::sqrt(Complex(mode.zeta * mode.zeta - 1.)));
   std::array<Complex, 7> a, b;

@@ -10,7 +10,7 @@ void Bdf::Point::exchange(StateArchive &archive)
   archive(t, q, v, w, u, u_rate, a, p, lambda);
 }
 
-/// What follows from the newest point is found again when it is asked for.
+/// Data that follow from the newest point are not stored, but computed again on request.
 void Bdf::exchange(StateArchive &archive)
 {
   bool is_consistent = consistent_ != nullptr;

@@ -15,11 +15,11 @@ struct Event
 };
 
 /**
- * Finds the events between two accepted instants and takes their transitions, without restarting the integration.
+ * Finds the events between two accepted instants and executes their transitions, without restarting the integration.
  *
- * The measures follow the cubic through u, u' at both ends; every guard that is active is watched for a zero in its
- * direction, the earliest one is located to 1e-12 of the step, its transition taken, and the search goes on with the
- * guards of the new branch.  Accuracy of the times is that of the integration.
+ * The measures are interpolated by the cubic through u, u' at both ends.  Every active event function is searched for a
+ * zero in its direction; the earliest zero is located to 1e-12 of the step, its transition is executed, and the search
+ * continues with the event functions of the new branch.  The times have the accuracy of the integration.
  */
 class EventDetection
 {
@@ -29,7 +29,7 @@ public:
   void begin(const LocalState &state);
   /// Events in (from, to], appended to `events`.
   void step(const LocalState &from, const LocalState &to, std::vector<Event> &events);
-  /// Steps in which more transitions than allowed were asked for (chatter); the rest was dropped.
+  /// Number of steps with more transitions than allowed (chatter); further transitions are dropped.
   long chattering_steps() const { return chattering_; }
 
 private:

@@ -16,10 +16,10 @@ namespace gestell::coupling
 
 namespace
 {
-/// share of a step where guards are looked at first: off the middle, where a symmetric bend hides
+/// share of a step at which guards are evaluated first: off the middle, where a symmetric curve would be missed
 constexpr double off_middle = 0.38;
 
-/// To what an event at t in a step of length h is located: far below what any step's error does to its time.
+/// Accuracy of the instant of an event at t in a step of length h: far better than the errors of steps.
 double resolution(double t, double h)
 {
   return std::max(1e-11 * h, 4. * std::numeric_limits<double>::epsilon() * std::abs(t));
@@ -76,7 +76,7 @@ void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorX
   in_window_    = 0;
 }
 
-/// Where the load is too large to hold, the new branch lets go at once, forward or backward as it pulls.
+/// If the load exceeds the limit, the new branch slips at once in the direction of the load.
 void EventDriver::hold_what_is_still()
 {
   EventSystem &events = system_.events();
@@ -151,7 +151,8 @@ void EventDriver::step_over()
   anew_ = false;
 }
 
-/// False: the integrator gave the step up instead; it goes on from its begin with a smaller one.
+/// Cuts the last step at the end of the run. Returns false if the integrator rejected the step instead, and continues
+/// from its start with a smaller one.
 bool EventDriver::cut_at_end()
 {
   if (!(integrator_.time() > options_.end))
@@ -220,9 +221,9 @@ void EventDriver::locate(int guard, double low, double g_low, double high, doubl
   crossing.t     = high;
 }
 
-/// Begin, end and one instant between them tell that no guard comes near zero: the parabola through them stays away by
-/// more than twice what it moves, the part that bends counted sixfold.  That instant is not the middle, where a rise in
-/// one half and a fall in the other would hide: c s (s - 1/2) (s - 1) is nowhere larger than 1.7 times there.
+/// Whether start, end and one instant between them show that no guard is near zero: the distance of the parabola
+/// through them is more than twice its variation, with the curvature weighted sixfold.  The instant is not the middle,
+/// where a rise in one half and a fall in the other would be missed: c s (s - 1/2) (s - 1) is at most 1.7 times that.
 bool EventDriver::far_from_zero() const
 {
   for (int i = 0; i < system_.events().n_guards(); ++i)
@@ -235,7 +236,7 @@ bool EventDriver::far_from_zero() const
   return true;
 }
 
-/// Part by part, where the motion turns far within the step.
+/// Finds the first crossing; searches the step in parts if the phase of the motion advances far within it.
 bool EventDriver::first_crossing(Crossing &first)
 {
   const int n = system_.events().n_guards();
@@ -309,16 +310,16 @@ bool EventDriver::first_crossing_between(double begin, double end, Crossing &fir
   return first.guard >= 0;
 }
 
-/// Past zero at the begin of a step.  Behind a transition rounding may leave the guard there that would take it back;
-/// the force that holds a measure is known at once, and rounding is what would come back to the limit in no time.
+/// Past zero at the start of a step.  After a transition rounding may leave the reverse guard there; the force of a
+/// sticking measure is known at once, and a value that would return to the limit immediately is rounding.
 bool EventDriver::is_due_at_begin(int guard, double here, double next)
 {
   constexpr double no_time = 1e-3; // of the way to the next look: what moves by then is a part in 10^9
   return (here >= 0. && next > 0.) || (here > no_time * (here - next) && here > 0. && looks_at_held_force(guard));
 }
 
-/// At the begin of a step: a guard that nobody looked at before is past its zero by what is no rounding.  Not one of an
-/// object that has just changed its branch, which may be as far past as its event was located, or its rate solved for.
+/// At the start of a step: a new guard is past its zero by more than rounding.  Not for an object that has just changed
+/// its branch, which may be past zero by the accuracy of its event, or of its rate.
 bool EventDriver::begins_past(int guard, double here)
 {
   if (!anew_ || !(here > 0.) || std::count(watched_.begin(), watched_.end(), system_.events().guard(guard).name) > 0)
@@ -326,7 +327,7 @@ bool EventDriver::begins_past(int guard, double here)
   return here > guard_rounding(system_, integrator_, guard, before_);
 }
 
-/// At the begin of a step: the guard is another one without the forces that hold measures.
+/// At the start of a step: whether the guard depends on forces of sticking measures.
 bool EventDriver::looks_at_held_force(int guard)
 {
   if (system_.forces().held().empty())
@@ -338,8 +339,8 @@ bool EventDriver::looks_at_held_force(int guard)
   return probe_[guard] != g_[0][guard];
 }
 
-/// Whether a guard that is negative at three instants turns above zero by more than rounding: `top` there, `low` before
-/// it.  Parabolas close in on the turn until their vertex is far below zero against their error.
+/// Whether a guard that is negative at three instants has a maximum above zero by more than rounding: `top` there,
+/// `low` before it.  Parabolas approximate the maximum until their vertex is far below zero compared with their error.
 bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low, Look &top)
 {
   constexpr double err = 0.1; // of the rise within a parabola: a sine bends its peak by 3 % at 0.8 rad between looks
@@ -349,14 +350,14 @@ bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low,
   {
     const double     rise = (b.g - a.g) / (b.t - a.t), curvature = ((c.g - b.g) / (c.t - b.t) - rise) / (c.t - a.t);
     double           t      = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
-    constexpr double nearby = 0.25; // share of its length by which a parabola errs about a turn at its end
+    constexpr double nearby = 0.25; // share of its length by which a parabola errs for a maximum at its end
     if (!(curvature < 0. && t > a.t - nearby * (c.t - a.t) && t < c.t + nearby * (c.t - a.t)))
       return false;
     const double vertex = a.g + (t - a.t) * (rise + curvature * (t - b.t));
     const double way    = std::max({a.g, b.g, c.g, vertex}) - std::min({a.g, b.g, c.g});
     if (vertex < -err * way || t == b.t)
       return false;
-    // A turn that seems to lie outside is looked for at the end, from inside.
+    // A maximum that seems to be outside is searched at the end, from inside.
     if (t >= c.t)
       t = 0.25 * b.t + 0.75 * c.t;
     else if (t <= a.t)
@@ -367,9 +368,9 @@ bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low,
       low                   = t > b.t ? b : a;
       top                   = seen;
       const double rounding = guard_rounding(system_, integrator_, guard, before_, c.t - a.t);
-      return !(std::isfinite(rounding) && seen.g <= rounding); // at the begin, where it was left by a transition
+      return !(std::isfinite(rounding) && seen.g <= rounding); // at the start, where a transition left it
     }
-    // The highest of the four stays with its neighbours.
+    // The highest of the four is kept with its neighbours.
     Look four[] = {a, b, c, seen};
     std::sort(four, four + 4, [](const Look &x, const Look &y) { return x.t < y.t; });
     const auto highest =
@@ -385,7 +386,7 @@ void EventDriver::take(const Crossing &crossing)
   const int        guard = crossing.guard;
   const double     begin = integrator_.step_begin(), end = integrator_.time();
   const double     finest   = resolution(end, end - begin);
-  constexpr double a_little = 0.1; // share of a step by which the force that holds a measure errs in time
+  constexpr double a_little = 0.1; // share of a step by which the force of a sticking measure errs in time
   const double     most     = looks_at_held_force(guard) ? a_little * (end - begin) : end - begin;
   double           t        = crossing.t;
   integrator_.cut(t);
@@ -405,7 +406,7 @@ void EventDriver::take(const Crossing &crossing)
   }
   if (integrator_.time() < t)
   {
-    integrator_.restart(); // the integrator gave the step up: it goes on from its begin with a smaller one
+    integrator_.restart(); // the integrator rejected the step: it continues from its start with a smaller one
     before_ = integrator_.local();
     return;
   }

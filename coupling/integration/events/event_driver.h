@@ -13,28 +13,29 @@ namespace gestell::coupling
 struct EventOptions
 {
   bool   locate = true; ///< false: events are reported after the step, without locating them
-  double end    = std::numeric_limits<double>::infinity(); ///< [s] a step that goes beyond is cut there
+  double end    = std::numeric_limits<double>::infinity(); ///< [s] a step that exceeds it is cut there
 
-  /// Sliding speed [m/s, rad/s] up to which a motion begins sticking: that of a start that was computed, and is
-  /// rounded.
+  /// Sliding speed [m/s, rad/s] below which a motion starts in the sticking state: for a computed initial state with
+  /// rounding errors.
   double still = 0.;
 
-  int max_per_step = 20; ///< located within the length of one step; more is chatter
+  int max_per_step = 20; ///< largest number located within the length of one step; more are chatter
 };
 
 /**
- * Drives an integrator from event to event and keeps the history of the elements.
+ * Drives an integrator from event to event and updates the history of the elements.
  *
  * Between events every law follows its branch, smoothly continued (SecondOrderSystem::follow_history), so that the
- * integrator keeps its order.  After each step the guards are looked at, at both ends, inside it, and where parabolas
- * through three of these values turn, drawn closer until they tell on which side of zero the guard turns; the first
- * zero in a guard's direction is located on the dense output, the step is cut there, improved until the guard of the
- * state itself is zero, the transition is taken and the integration restarted.  A guard that is past its zero at the
- * begin of a step and stays so, or that looks at the force that holds a measure, is an event at that begin; so is one
- * that is past it by more than rounding where it is looked at for the first time, however long the step.
+ * integrator keeps its order.  After each step the guards (event functions) are evaluated at both ends, inside the
+ * step, and at the extremum of parabolas through three of these values, which are refined until the sign of the
+ * extremum is known.  The first zero in a guard's direction is located on the dense output, the step is cut there and
+ * improved until the guard of the state itself is zero; then the transition is executed and the integration restarted.
+ * A guard that is past its zero at the start of a step and remains there, or that depends on the force of a sticking
+ * measure, is an event at that start; so is a guard that is past its zero by more than rounding when it is first
+ * evaluated, for any step length.
  *
- * Chatter (Zeno): after max_per_step events within one step's length, one step is taken with the laws following the
- * motion and events only told.
+ * Chatter (Zeno): after max_per_step events within one step's length, one step is made in which the laws follow the
+ * motion and events are only reported.
  */
 class EventDriver
 {
@@ -43,7 +44,7 @@ public:
   EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options,
               const std::vector<RunObserver *> &observers = none());
 
-  /// Starts history and integration.
+  /// Initialises history and integration.
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
 
   /// One step of the integrator, or the part of it up to its first event.  The history is up to date afterwards.
@@ -52,10 +53,10 @@ public:
 
   const std::vector<Event> &events() const { return events_; }
   long                      chattering_steps() const { return chattering_; }
-  /// [s] that those steps took.
+  /// [s] total duration of those steps.
   double chattering_time() const { return chattering_time_; }
 
-  /// All that the events to come depend on, history of the elements and state of the integrator too.
+  /// The complete state for later events, including the history of the elements and the state of the integrator.
   void exchange(StateArchive &archive);
 
 private:
@@ -70,7 +71,7 @@ private:
     double slope = 0.; ///< of the guard there
   };
 
-  /// A guard at an instant, turned so that it rises through its zero.
+  /// A guard at an instant, with its sign such that it rises through zero.
   struct Look
   {
     double t, g;
@@ -103,14 +104,14 @@ private:
   LocalState                                before_, between_;
   std::array<Eigen::VectorXd, n_inside + 2> g_; ///< guards at the samples of the step
   Eigen::VectorXd                           probe_;
-  double                                    window_begin_ = 0., length_ = 0.; ///< of the step events are counted in
-  bool                                      anew_ = true; ///< behind a begin or a transition, before a step
-  std::vector<std::string>                  watched_;     ///< whose guards have been looked at before
+  double                                    window_begin_ = 0., length_ = 0.; ///< of the step for the count of events
+  bool                                      anew_ = true; ///< after a start or a transition, before a step
+  std::vector<std::string>                  watched_;     ///< owners of guards that have been evaluated before
   int                                       in_window_       = 0;
   long                                      chattering_      = 0;
   double                                    chattering_time_ = 0.;
   const std::vector<RunObserver *>         &observers_;
-  std::size_t                               reported_ = 0; ///< events
+  std::size_t                               reported_ = 0; ///< number of events
 };
 
 } // namespace gestell::coupling

@@ -9,17 +9,17 @@ namespace gestell::coupling
 
 enum class Severity
 {
-  warning, ///< the result holds, but perhaps not as it was meant
-  error    ///< the result ends here, or is not a motion of the machine
+  warning, ///< the result is valid, but perhaps not as intended
+  error    ///< the result ends here, or is not physical
 };
 
-/// What a check found, as a value.
+/// Result of a check, as a value.
 struct Finding
 {
   Severity    severity = Severity::warning;
-  std::string id;    ///< of the kind of finding, the same in all versions: "energy-balance"
-  std::string place; ///< element, joint, switch, signal or key that it is about; empty: the run as a whole
-  std::string text;  ///< what is wrong, where, and what to do
+  std::string id;    ///< kind of the finding, the same in all versions: "energy-balance"
+  std::string place; ///< element, joint, switch, signal or key concerned; empty: the whole run
+  std::string text;  ///< the problem, its location, and the remedy
 };
 
 inline std::vector<std::string> texts_of(const std::vector<Finding> &findings)
@@ -30,12 +30,12 @@ inline std::vector<std::string> texts_of(const std::vector<Finding> &findings)
   return texts;
 }
 
-/// How a run ended and what was found of it.
+/// End of a run, and its findings.
 struct RunOutcome
 {
-  std::vector<Finding> findings; ///< without the one that ended it
-  std::string          failure;  ///< not empty: why it stopped early
-  std::string          end_id;   ///< of the kind of this end, as of a finding; empty: of no kind
+  std::vector<Finding> findings; ///< except the one that ended it
+  std::string          failure;  ///< not empty: reason for an early end
+  std::string          end_id;   ///< kind of this end, as for a finding; empty: none
   std::string          end_place;
   bool                 interrupted = false;
 
@@ -44,7 +44,7 @@ struct RunOutcome
   {
     findings.push_back({Severity::warning, std::move(id), std::move(place), std::move(text)});
   }
-  /// The first reason counts.
+  /// Only the first reason is stored.
   void stop(std::string id, std::string place, std::string text)
   {
     if (!failure.empty())

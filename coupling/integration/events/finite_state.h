@@ -8,14 +8,14 @@
 namespace gestell::coupling
 {
 
-/// Whether motion and forces of the measures are numbers: by one sum, which any that is none spoils.
+/// Whether motion and forces of the measures are finite: checks a single sum, which is not finite if any term is not.
 bool is_finite(const LocalState &state);
 
-/// Which of them is none, for messages.
+/// Message that names the values that are not finite.
 std::string non_finite_state_message(const SecondOrderSystem &system, const LocalState &state);
 
-/// A step of any method ends in a state, whatever looks on; else it is given up.
-/// @throws ConvergenceFailure
+/// One step of any method that ends in a finite state.
+/// @throws ConvergenceFailure otherwise
 void make_step(TimeIntegrator &integrator, const SecondOrderSystem &system);
 
 } // namespace gestell::coupling

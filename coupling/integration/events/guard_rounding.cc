@@ -47,7 +47,7 @@ double guard_rounding(const SecondOrderSystem &system, const TimeIntegrator &int
     moves(moved.v[j], size_v[j]);
   }
   moves(moved.t, std::abs(at.t));
-  // A sum of a few terms, what an element makes of it, and the difference from a threshold.
+  // A sum of a few terms, its value in an element, and the difference from a threshold.
   constexpr double roundings = 16.;
   return roundings * eps / share * sum;
 }

@@ -12,22 +12,22 @@ namespace gestell::coupling
 {
 
 /**
- * By how much rounding moves the value of a guard,
+ * Rounding error of the value of a guard (event function),
  *
  *     16 eps (sum_j |dg/du_j| (|W|^T |q| + l)_j + |dg/du'_j| (|W|^T (|q'| + |q|/h))_j + |dg/dt| |t|),
  *
- * l the size of the numbers whose difference the measures of an element are (ForceBlock::size).  A threshold is at most
- * as large as these terms and the guard itself, so that its rounding is told with them.
+ * where l is the size of the numbers whose difference the measures of an element are (ForceBlock::size).  A threshold
+ * is at most as large as these terms and the guard itself, so that its rounding is included.
  *
- * @param integrator  tells q and q'
- * @param at          the begin of its last step
+ * @param integrator  provides q and q'
+ * @param at          the start of its last step
  * @param h           [s] length of the step whose rates are differences of q
- * @return infinite for a guard that looks at accelerations, forces or multipliers: steps tell them, no begin does.
+ * @return infinite for a guard that depends on accelerations, forces or multipliers, which are known only after a step
  */
 double guard_rounding(const SecondOrderSystem &system, const TimeIntegrator &integrator, int guard,
                       const LocalState &at, double h = std::numeric_limits<double>::infinity());
 
-/// Values of a guard within a step are all rounding, so that their sign tells nothing: what it looks at is at rest.
+/// Whether the values of a guard within a step are only rounding errors, so that their sign means nothing.
 template <class Looks>
 bool is_rounding(const SecondOrderSystem &system, const TimeIntegrator &integrator, int guard, const LocalState &at,
                  const Looks &looks)
@@ -39,7 +39,7 @@ bool is_rounding(const SecondOrderSystem &system, const TimeIntegrator &integrat
   return most <= rounding && std::isfinite(rounding);
 }
 
-/// Whose guards are active, in their order.
+/// Owners of the active guards, in their order.
 std::vector<std::string> guard_owners(const EventSystem &events);
 
 } // namespace gestell::coupling

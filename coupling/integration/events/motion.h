@@ -9,7 +9,7 @@ namespace gestell::coupling
 {
 
 /**
- * A motion of a system in time: the integrator, the events that it is led over, and observers in their order.
+ * A motion of a system in time: the integrator, the event driver, and observers in their order.
  *
  *     Motion motion(system, make_integrator(system, method));
  *     motion.watch(observer);
@@ -24,7 +24,7 @@ public:
   Motion(const Motion &)            = delete;
   Motion &operator=(const Motion &) = delete;
 
-  /// Tells the observer, which must outlive the motion, of all that follows; of the start at once where there was one.
+  /// Adds an observer, which must outlive the motion.  It is called for all later steps, and at once for a past start.
   void watch(RunObserver &observer);
 
   /// Starts, or restarts.
@@ -34,8 +34,8 @@ public:
   /// @throws ConvergenceFailure, also that of an observer
   void advance() { driver_->advance(); }
   bool at_end() const { return !(integrator_->time() < finish_); }
-  /// Steps to the end, as long as `goes_on` is true after each.
-  /// @throws as advance()
+  /// Steps to the end while `goes_on` returns true after each step.
+  /// @throws as advance() does
   template <class GoesOn>
   void to_end(const GoesOn &goes_on)
   {
@@ -54,9 +54,9 @@ public:
   double                time() const { return integrator_->time(); }
   TimeIntegrator       &integrator() { return *integrator_; }
   const TimeIntegrator &integrator() const { return *integrator_; }
-  const EventDriver    &driver() const { return *driver_; } ///< events and chatter since it began last
+  const EventDriver    &driver() const { return *driver_; } ///< events and chatter since the last begin()
   long   chattering_steps() const { return chattering_ + driver_->chattering_steps(); }    ///< of all starts
-  double chattering_time() const { return chattering_time_ + driver_->chattering_time(); } ///< [s] likewise
+  double chattering_time() const { return chattering_time_ + driver_->chattering_time(); } ///< [s] of all starts
 
   /// State of events, integrator and observers.
   void exchange(StateArchive &archive);
@@ -66,7 +66,7 @@ private:
   std::unique_ptr<TimeIntegrator> integrator_;
   std::vector<RunObserver *>      observers_;
   std::optional<EventDriver>      driver_;
-  double                          finish_          = 0.; ///< [s] the end, less what rounding may leave
+  double                          finish_          = 0.; ///< [s] the end minus rounding
   long                            chattering_      = 0;  ///< before the last start
   double                          chattering_time_ = 0.;
 };

@@ -26,7 +26,7 @@ const Newmark::Options &checked(const Newmark::Options &o)
   return o;
 }
 
-/// A joint is a spring stiff without limit: its roots are those of omega h = infinity, which must be damped.
+/// A joint is an infinitely stiff spring: its roots are those for omega h = infinity, which must be damped.
 void refuse_with_joints(const Newmark::Options &o)
 {
   const std::string way = "; take bdf, or generalised-alpha with rho_inf below 1, or hht with alpha below 0";

@@ -14,11 +14,11 @@ namespace gestell::coupling
  *     M [(1 - alpha_m) a_1 + alpha_m a_0] + B [(1 - alpha_f) v_1 + alpha_f v_0] + C [(1 - alpha_f) q_1 + alpha_f q_0]
  *       = (1 - alpha_f) (f_1 + W p_1) + alpha_f (f_0 + W p_0)
  *
- * Forces are averaged, not taken at an averaged state: p_1 is that of the motion at the end of the step, and enters the
- * condensed equation with the factor h^2 (1 - alpha_f)/(1 - alpha_m).
+ * Forces are averaged, not evaluated at an averaged state: p_1 is that of the motion at the end of the step, and has
+ * the factor h^2 (1 - alpha_f)/(1 - alpha_m) in the condensed equation.
  *
- * Second order if gamma = 1/2 - alpha_m + alpha_f, otherwise first.  The acceleration that generalised alpha and HHT
- * carry belongs to t + (alpha_m - alpha_f) h; that of the measures, local().a, is brought to t (second order too).
+ * Second order if gamma = 1/2 - alpha_m + alpha_f, otherwise first.  The acceleration in the state of generalised alpha
+ * and HHT is that at t + (alpha_m - alpha_f) h; that of the measures, local().a, is shifted to t (second order).
  *
  * Sources: Newmark, J. Eng. Mech. Div. ASCE 85, 1959; Hilber, Hughes & Taylor, Earthq. Eng. Struct. Dyn. 5, 1977;
  * Chung & Hulbert, J. Appl. Mech. 60, 1993; docs/theory/integration.md.
@@ -37,14 +37,14 @@ public:
     NewtonOptions newton{};
   };
 
-  /// alpha in [-1/3, 0]: alpha_f = -alpha, beta = (1 - alpha)^2/4, gamma = 1/2 - alpha.  The step is left to be set.
-  /// @throws std::invalid_argument outside of it
+  /// alpha in [-1/3, 0]: alpha_f = -alpha, beta = (1 - alpha)^2/4, gamma = 1/2 - alpha.  The step must be set
+  /// afterwards.
+  /// @throws std::invalid_argument for alpha outside this range
   static Options hht(double alpha);
   /// rho_inf in [0, 1], the spectral radius as omega h goes to infinity.
-  /// @throws std::invalid_argument outside of it
+  /// @throws std::invalid_argument for rho_inf outside this range
   static Options generalised_alpha(double rho_inf);
-  /// Central differences: beta = 0, gamma = 1/2, which takes the velocity v = (q_+ - q_-)/(2 h); explicit in q,
-  /// implicit in v.
+  /// Central differences: beta = 0, gamma = 1/2, with the velocity v = (q_+ - q_-)/(2 h); explicit in q, implicit in v.
   static Options central_difference();
 
   /// @throws std::invalid_argument for parameters outside their range, a step that is not positive, a singular M

@@ -11,7 +11,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// What the methods of the family share: all are Newmark's formulas with certain weights.
+/// Common base of the methods of the family: all are Newmark's formulas with certain weights.
 class FamilyMethod : public IntegrationMethod
 {
 public:
@@ -35,7 +35,7 @@ public:
 
 protected:
   virtual Newmark::Options weights(const MethodOptions &options) const = 0;
-  /// Of the balance at one instant, without weights of forces.
+  /// Weights for the balance at one instant, without weights of forces.
   static StepWeights balance(const Newmark::Options &o, double r)
   {
     const double d = r - 1., mean = 1. - o.gamma + o.gamma * r;

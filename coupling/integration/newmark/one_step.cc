@@ -49,7 +49,7 @@ void OneStep::resize(Point &point) const
   point.keep_balance();
 }
 
-/// The present point becomes t, q, v with its measures; no step lies behind it.
+/// Sets the present point to t, q, v with its measures; there is no previous step.
 void OneStep::place(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   const auto &W    = system_.forces().directions();
@@ -120,7 +120,7 @@ void OneStep::advance()
   // The grid is kept free of what many additions of h would leave.
   end_.motion.t = end_.motion.local.t = t_begin_ + static_cast<double>(index_) * step_;
   const bool holds                    = !system_.forces().held().empty();
-  if (holds) // which finds the multipliers too
+  if (holds) // this also finds the multipliers
     start_.hold(end_.motion.q, end_.motion.v, end_.motion.local, work_);
   end_.keep_balance();
   if (!holds && system_.joints().n_rows() > 0 && system_.joints().wants_multipliers())
@@ -173,7 +173,7 @@ void OneStep::interpolate(double t, LocalState &state) const
   state.lambda              = L[0] * a.lambda + L[1] * b.lambda;
   if (system_.forces().held().empty())
     return;
-  // By their values alone: q'' of modes that the step does not resolve would be that of the cubic.
+  // Interpolates values only: q'' of modes that the step does not resolve would be that of the cubic.
   q_inside_ = L[0] * begin_.motion.q + L[1] * end_.motion.q;
   v_inside_ = L[0] * begin_.motion.v + L[1] * end_.motion.v;
   start_.hold(q_inside_, v_inside_, state, work_);
@@ -218,7 +218,7 @@ void OneStep::motion_at(double t, const std::vector<int> &coordinates, Eigen::Ve
 void OneStep::cut(double t)
 {
   cut_ = true;
-  if (!(t > step_begin())) // the step is rejected: nothing of its end, which may be no number, counts
+  if (!(t > step_begin())) // the step is rejected: its end, which may not be finite, is ignored
   {
     cut_point_ = stepped_ ? begin_ : end_;
     return;
@@ -228,7 +228,7 @@ void OneStep::cut(double t)
   interpolate(t, here.local);
   keep_held_rates(system_, here.local.v);
   here.t = t;
-  if (system_.joints().n_rows() > 0) // multipliers as accurate as q and q': a limiter may look at them
+  if (system_.joints().n_rows() > 0) // multipliers with the accuracy of q and q': a limiter may use them
     start_.solve(here.q, here.v, cut_point_.a, here.local, work_);
 }
 

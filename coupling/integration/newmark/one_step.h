@@ -11,29 +11,29 @@ namespace gestell::coupling
 {
 
 /**
- * What all methods share that go from one point with q, q' and an acceleration to the next, with fixed step.
+ * Common part of methods with fixed step that proceed from one point with q, q' and an acceleration to the next.
  *
  * - Start and restart: the acceleration of the equation of motion there (ConsistentStart), so M must be regular.
- * - A step in which Newton fails is divided: two steps of half the length by the same formula, each divided again up to
- *   max_halvings times; the grid stays as it was.
+ * - A step in which Newton fails is divided into two steps of half the length by the same formula, each divided again
+ *   up to max_halvings times; the grid is unchanged.
  * - Dense output: cubic Hermite through q, q' at both ends (order 4 in the step), q' its derivative; a and p linear.
- * - The force that holds a measure follows from the equation of motion at q and q', at ends of steps and inside
+ * - The force of a sticking measure follows from the equation of motion at q and q', at ends of steps and inside
  *   (ConsistentStart::hold()).
- * - So do multipliers of ideal joints wherever somebody looks at them: those of the method, which averages forces, are
- *   of another instant and swing about those of the motion from step to step.
- * - A cut takes the dense output; advance() after it begins anew there.
+ * - The same applies to multipliers of ideal joints if they are requested: those of the method, which averages forces,
+ *   are valid at another instant and oscillate around the true ones from step to step.
+ * - A cut uses the dense output; the next advance() restarts there.
  */
 class OneStep : public TimeIntegrator, public Resumable
 {
 public:
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
-  /// Continues a motion of which the acceleration that the method carries is known too, a [n].
+  /// Continues a motion with known acceleration a [n] in the state of the method.
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a);
   void advance() override;
 
   const LocalState      &local() const override { return present().motion.local; }
   const Instant         &instant() const override { return present().motion; }
-  const Eigen::VectorXd &acceleration() const { return present().a; } ///< [n], as the method carries it
+  const Eigen::VectorXd &acceleration() const { return present().a; } ///< [n], in the state of the method
   double                 step_begin() const override { return (stepped_ ? begin_ : end_).motion.t; }
   void                   interpolate(double t, LocalState &state) const override;
   void                   interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const override;
@@ -44,14 +44,14 @@ public:
   void                   exchange(StateArchive &archive) override;
 
 protected:
-  /// A point of time: motion, acceleration as the method carries it and load f_t, both [n].
+  /// A point of time: motion, acceleration in the state of the method, and load f_t, both [n].
   struct Point
   {
     Instant         motion;
     Eigen::VectorXd a, f;
-    Eigen::VectorXd p, lambda; ///< [n_u], [n_c] as the method balances them; those of the motion where they are found
+    Eigen::VectorXd p, lambda; ///< [n_u], [n_c] as the method balances them; those of the motion if computed
 
-    void keep_balance(); ///< they are those of the motion
+    void keep_balance(); ///< copies those of the motion
     void exchange(StateArchive &archive);
   };
 

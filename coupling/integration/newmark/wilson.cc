@@ -61,7 +61,7 @@ void Wilson::formula_step(const Point &from, double h, Point &to)
   end.local.u.noalias() = W.transpose() * end.q;
   end.local.v.noalias() = W.transpose() * end.v;
   end.local.a.noalias() = W.transpose() * to.a;
-  // Rows of held measures keep what stands there: the point at t + h of the line to t + theta h.
+  // Rows of sticking measures keep the value at t + h of the line to t + theta h.
   end.local.p = start.local.p + (ahead_.p - start.local.p) / theta_;
   system_.forces().force(end.local, end.local.p);
   ++work_.evaluations;

@@ -13,13 +13,13 @@ namespace gestell::coupling
  *     q_theta = q_0 + theta h v_0 + (theta h)^2/3 a_0 + x/6,     v_theta = v_0 + theta h/2 a_0 + x/(2 theta h),
  *     a_1 = a_0 + (a_theta - a_0)/theta,     v_1 = v_0 + h (a_0 + a_1)/2,     q_1 = q_0 + h v_0 + h^2 (2 a_0 + a_1)/6.
  *
- * The load is extrapolated linearly from the ends of the step.  The forces of the elements are taken at t + theta h,
- * for the motion that the method has there: an event between t + h and t + theta h is felt before it happens.
- * local().p at t + h is evaluated anew; that of held measures lies on the line from t to t + theta h.
+ * The load is extrapolated linearly from the ends of the step.  The forces of the elements are evaluated at t + theta
+ * h, for the motion of the method there: an event between t + h and t + theta h acts before it happens.  local().p at t
+ * + h is evaluated again; that of sticking measures is interpolated linearly between t and t + theta h.
  *
- * Second order; stable for every step from theta = (1 + sqrt 3)/2 = 1.36603 on.  It overshoots: a stiff mode that is
- * displaced at the start leaves the first step with an amplitude that grows like (omega h)^2 (theta = 1.4: 14 and 1430
- * times for omega h = 10 and 100).
+ * Second order; unconditionally stable for theta >= (1 + sqrt 3)/2 = 1.36603.  It overshoots: after the first step, a
+ * stiff mode with an initial displacement has an amplitude that grows like (omega h)^2 (theta = 1.4: 14 and 1430 times
+ * for omega h = 10 and 100).
  *
  * Source: Wilson, Farhoomand & Bathe, Earthq. Eng. Struct. Dyn. 1, 1973; docs/theory/integration.md.
  */

@@ -10,12 +10,11 @@ namespace gestell::coupling
 namespace
 {
 
-/// Linear acceleration from t to t + theta h, where the balance holds.
+/// Linear acceleration from t to t + theta h, where the balance is satisfied.
 Eigen::Matrix3d wilson_matrix(double theta, const TestOscillator &o)
 {
   const double Omega = o.omega_h, c = 2. * o.zeta * Omega, k = Omega * Omega, t2 = theta * theta;
-  // d = a_1 - a_0:  (theta + c theta^2/2 + k theta^3/6) d = -k x_0 - (c + k theta) v_0 - (1 + c theta + k theta^2/2)
-  // a_0
+  // d = a_1 - a_0: (theta + c theta^2/2 + k theta^3/6) d = -k x_0 - (c + k theta) v_0 - (1 + c theta + k theta^2/2) a_0
   Eigen::RowVector3d d(-k, -c - k * theta, -1. - c * theta - 0.5 * k * t2);
   d /= theta + 0.5 * c * t2 + k * t2 * theta / 6.;
   Eigen::Matrix3d A;

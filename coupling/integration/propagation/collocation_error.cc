@@ -88,10 +88,10 @@ double CollocationStep::of_all(const StepTable &table, int row) const
 
 bool CollocationStep::is_sound(const StepTable &table)
 {
-  constexpr double least_pivot = 0.25; // of I - S dp: its solution goes at most some four times as far as the motion
+  constexpr double least_pivot = 0.25; // of I - S dp: its solution is at most about four times as large as the motion
   if (context_.system->forces().held().empty())
     return lu_.least_pivot() > least_pivot;
-  dp_du_.setZero(); // what sticks writes nothing
+  dp_du_.setZero(); // sticking measures write nothing
   dp_dv_.setZero();
   defect_ = begin_at_.p;
   context_.system->forces().derivatives(begin_at_, defect_, dp_du_, dp_dv_);
@@ -127,7 +127,7 @@ void CollocationStep::finish(const StepTable &table, LocalState &end)
   ++context_.work.evaluations;
   if (!context_.system->forces().held().empty())
     context_.accelerate(x_end_,
-                        end); // so that the guards of what sticks see its force with the accuracy of the state
+                        end); // so that sticking guards use the force at the accuracy of the state
   U_.col(s_ + 1) = end.u;
   V_.col(s_ + 1) = end.v;
   find_defect(end);
@@ -135,16 +135,16 @@ void CollocationStep::finish(const StepTable &table, LocalState &end)
   reach(end);
   grow_scale(end.u, end.v, table.h);
   estimate(table);
-  constexpr int steps_of_way = 16; // between two looks at the way of the motion, which cost a few products each
-  // The way of the motion costs a pass over the modes: it is looked at where it may save the step, else now and then.
+  constexpr int steps_of_way = 16; // between two calls of way(), each a few products
+  // way() costs a pass over the modes: it is evaluated if it may prevent a rejection, otherwise only sometimes.
   if (context_.error_tolerance == 0. || (error_ <= context_.error_tolerance && age_of_way_++ % steps_of_way != 0))
     return;
   reached_.way = context_.way(x_end_);
   estimate(table);
 }
 
-/// Of the law, at both ends of the step: alike in smooth motion, as the Gauss points lie symmetrically.  Where a step
-/// is too long for its motion either of them may be small by chance.
+/// Defect of the law at both ends of the step: equal in smooth motion, because the Gauss points are symmetric.  If a
+/// step is too long for its motion either of them may be small by coincidence.
 void CollocationStep::find_defect(const LocalState &end)
 {
   defect_begin_ = begin_at_.p;
@@ -163,7 +163,7 @@ void CollocationStep::reach(const LocalState &end)
 void CollocationStep::estimate(const StepTable &table)
 {
   const bool       expected   = is_expected(table.h);
-  constexpr double least_part = 1e-6; // of the motion as a whole, below which a measure does not count for less
+  constexpr double least_part = 1e-6; // of the whole motion: least scale of a measure
   const double     way =
       std::max({context_.farthest, reached_.way, expected ? expected_.way : 0., least_part * context_.loads_way});
   const double least = least_part * std::max(way, context_.loads_way);

@@ -71,9 +71,9 @@ void CollocationStep::begin(const VectorXd &x, const LocalState &at)
 bool CollocationStep::solve(const StepTable &table, LocalState &end)
 {
   constexpr int most_doubtful = 6; // halvings: a 64th of the step
-  // A step tried from here before was refused.  But it tells how far the motion goes by its end, and until then
-  // scales are not below that: a motion that begins from rest, like t^3, would else have no step small enough.
-  // One that errs by as much as it moves tells little, unless shorter ones do so too.
+  // A step tried from here before was rejected.  It predicts the distance of the motion at its end, which is a lower
+  // bound of the scales until then: a motion from rest, like t^3, would otherwise have no step small enough.  A step
+  // with an error as large as its motion is no prediction, unless shorter ones are the same.
   if (tried_ && begin_at_.t + h_ > expected_until_ && (error_ < 1. || ++doubtful_ > most_doubtful) && is_sound(*tried_))
   {
     expected_       = reached_;
@@ -205,7 +205,7 @@ bool CollocationStep::evaluate(const StepTable &table, bool jacobian)
   for (const HeldMeasure &held : system.forces().held())
     for (int i = 0; i < s_; ++i)
     {
-      // Per h: S_v ~ h W^T M^-1 W, and a step to an event may be as short as the clock tells.
+      // Per h: S_v ~ h W^T M^-1 W, and a step to an event may be as short as the resolution of time.
       const int row  = i * n_u_ + held.measure;
       residual_[row] = (held.rate - V_(held.measure, i + 1)) / table.h;
       if (jacobian)
@@ -242,8 +242,8 @@ bool CollocationStep::iterate(const StepTable &table)
     constexpr double stalled = 0.5;
     if (size * known <= context_.newton.tolerance && (part * known <= part_left() || contraction > stalled))
       return true;
-    constexpr double fresh_needed = 0.15; // contraction above which the Jacobian is taken anew
-    // A kept Jacobian that contracts badly is taken anew; a fresh one is, from its second use on.
+    constexpr double fresh_needed = 0.15; // contraction above which the Jacobian is computed again
+    // A kept Jacobian with bad contraction is computed again; a fresh one from its second use.
     fresh  = iteration > 0 ? contraction > fresh_needed : false;
     before = size;
   }

@@ -13,22 +13,22 @@ namespace gestell::coupling
 class StateArchive;
 
 /**
- * Forces as the polynomial through s Gauss points, at which the laws are met:
+ * Forces as the polynomial through s Gauss points, at which the laws are satisfied:
  *
  *     p_i = phi(u_i, u'_i),   u_i = u_free(c_i) + sum_j S_u(i, j) p_j,   u'_i = u'_free(c_i) + sum_j S_v(i, j) p_j.
  *
- * Order 2 s at the ends of steps, as the error of the polynomial is orthogonal to all of degree s - 1.  Newton solves
- * for all p_i at once and keeps its Jacobian as long as it contracts well.  It stops where what it leaves moves no
- * measure by the tolerance, relative to its largest excursion, and from order 6 on is small beside the local error:
- * forces are met to newton_share times the square of the relative defect of the polynomial at the end of the step
- * before.
+ * Order 2 s at the ends of steps, because the error of the polynomial is orthogonal to all polynomials of degree s - 1.
+ * Newton solves for all p_i at once and keeps its Jacobian while it contracts well.  It stops when the residual moves
+ * no measure by more than the tolerance, relative to its largest excursion.  For order 6 and above the residual must
+ * also be small compared with the local error: below newton_share times the square of the relative defect of the
+ * polynomial at the end of the previous step.
  *
- * Error.  The defect d of the law at the ends of the step, the larger one, would, acting all the step, move the
- * measures by S d.  A tenth of that is compared with their largest excursions, which do not count for less than
- * least_part of how far the motion as a whole has gone, or loads to come would lead it, in the norm of the energy. What
- * sticks holds others too: S is what is left of the mobility then.  A measure that sticks does not move: its force is
- * as good as it should be if it errs little beside its own largest value, or if the error moves little beside the
- * motion as a whole.
+ * Error.  If the larger defect d of the law at the two ends of the step acted during the whole step, it would move the
+ * measures by S d.  A tenth of that is compared with their largest excursions.  An excursion is at least least_part of
+ * the distance of the whole motion in the energy norm, so far or predicted from future loads.  Sticking measures
+ * constrain others too: S is then the remaining mobility.  A sticking measure does not move: its force is accurate
+ * enough if its error is small compared with its largest value, or if the error moves the machine little compared with
+ * the whole motion.
  */
 class CollocationStep final : public ForceStep
 {
@@ -77,53 +77,53 @@ private:
   /// u, v at point i from the free motion and P.
   void motion(const StepTable &table, int i, LocalState &state) const;
 
-  /// Extrapolates the polynomial of the last step; after an event the force at its beginning.
+  /// Extrapolates the polynomial of the last step; after an event uses the force at its beginning.
   void predict(double h);
 
   /// Rows of point i of I - dp S, from dp_du_ and dp_dv_.
   void fill_rows(const StepTable &table, int i, Eigen::MatrixXd &matrix) const;
 
-  /// Residuals phi(u_i, v_i) - P_i; with their Jacobian if it is wanted.
+  /// Residuals phi(u_i, v_i) - P_i; also their Jacobian if `jacobian` is true.
   bool evaluate(const StepTable &table, bool jacobian);
 
   bool iterate(const StepTable &table);
 
-  /// The largest defects so far, as parts of the largest forces.
+  /// Updates the largest defects so far, relative to the largest forces.
   void note_defect();
 
-  /// Relative error of the forces that Newton may leave; up to order 4 the tolerance is small enough beside the error.
+  /// Relative error of the forces that Newton may leave; up to order 4 the tolerance is small against the local error.
   double part_left() const;
 
   bool is_expected(double h) const { return begin_at_.t + h <= expected_until_; }
 
-  /// The excursions of accepted steps, of this iterate, and those to be expected.
+  /// Grows the scale by the excursions of accepted steps, of this iterate, and those predicted.
   void grow_scale(const Eigen::Ref<const Eigen::VectorXd> &u, const Eigen::Ref<const Eigen::VectorXd> &v, double h);
 
   bool is_held(int measure) const;
 
-  /// What a change of the forces does to the measures, relative to their scales; what sticks, to what its force does.
-  /// Forces that balance each other leave rounding of what each would do alone, which shows where iterations do not
-  /// end.
-  /// @param part  the change, relative to the largest forces
+  /// Effect of a change of the forces on the measures, relative to their scales; for sticking measures the effect of
+  /// their force. Forces that balance each other leave rounding errors of their separate effects, which matters if
+  /// iterations do not end.
+  /// @param part  receives the change relative to the largest forces
   double size_of(const StepTable &table, const Eigen::VectorXd &change, int iteration, double &part) const;
 
-  /// What all forces would move a measure together, were they not to balance each other.
+  /// Sum of the magnitudes by which all forces would move a measure, without cancellation.
   double of_all(const StepTable &table, int row) const;
 
-  /// Of I - S dp at the beginning of the step without sticking elements: no pivot is small or negative.
+  /// Whether I - S dp at the beginning of the step, without sticking elements, has no small or negative pivot.
   bool is_sound(const StepTable &table);
 
   void finish(const StepTable &table, LocalState &end);
 
   void find_defect(const LocalState &end);
 
-  /// How far the measures and their forces go in the step.
+  /// Updates the largest excursions of the measures and of their forces in the step.
   void reach(const LocalState &end);
 
-  /// error_ of the step, and the part of the forces that the defect is.
+  /// Computes error_ of the step, and the defect relative to the force.
   void estimate(const StepTable &table);
 
-  /// Largest excursions of the measures, their forces, and the way of the motion as a whole.
+  /// Largest excursions of the measures, their forces, and the distance of the whole motion.
   struct Reach
   {
     Eigen::VectorXd u, p;
@@ -135,14 +135,14 @@ private:
   ForceBasis          basis_;
   HermiteNodes        nodes_;
   Eigen::VectorXd     x_begin_, x_end_, free_, P_, P_last_, P_end_, residual_, defect_, defect_begin_;
-  Eigen::VectorXd     mobile_; ///< what is left of the mobility of a measure while others are held [n_u]
-  Eigen::VectorXd     scale_;  ///< of the measures in the step in work [n_u]
+  Eigen::VectorXd     mobile_; ///< remaining mobility of a measure while others stick [n_u]
+  Eigen::VectorXd     scale_;  ///< of the measures in the current step [n_u]
   long                age_of_way_ = 0;
-  Reach               reached_, expected_; ///< by the end of the step in work; of one refused
+  Reach               reached_, expected_; ///< at the end of the current step; of a rejected one
   double              expected_until_ = 0.;
-  int                 doubtful_       = 0;    ///< steps refused from the present begin that erred by all they moved
+  int                 doubtful_       = 0;    ///< rejected steps from here with errors as large as their motion
   Eigen::VectorXd     largest_defect_;        ///< of the forces so far [n_u]
-  double              defect_part_ = 1.;      ///< the largest of them, as a part of the largest force
+  double              defect_part_ = 1.;      ///< the largest of them, relative to the largest force
   const StepTable    *tried_       = nullptr; ///< of a step from the present begin
   Eigen::MatrixXd     U_, V_, dp_du_, dp_dv_, extrapolate_;
   TangentWork         tangent_;

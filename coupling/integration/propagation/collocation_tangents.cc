@@ -39,8 +39,8 @@ void take(const Matrix &all, const std::vector<int> &measures, int s, int n_u, M
 }
 } // namespace
 
-/// Derivatives of the forces at the points of the step solved last, and the measures in which they are not zero or that
-/// are held: open contacts and idle elements are none of them.
+/// Derivatives of the forces at the points of the last step, and the measures with nonzero derivatives or sticking
+/// ones: open contacts and idle elements are excluded.
 void CollocationStep::linearise_forces()
 {
   TangentWork &at = tangent_;
@@ -119,9 +119,8 @@ void CollocationStep::fill_tangent_rows(const StepTable &table, int i)
   }
 }
 
-/// What solve() solves, linearised at its solution, for the measures in which forces change:
-///     dp_i = dp/du du_i + dp/dv dv_i,   du_i = row_u,i^T dx + sum_j S_u(i, j) dp_j,   dv_i likewise;   dv_i = 0 if
-///     held.
+/// Linearises the equations of solve() at their solution, for the measures in which forces change: dp_i = dp/du du_i +
+/// dp/dv dv_i,   du_i = row_u,i^T dx + sum_j S_u(i, j) dp_j,   dv_i in the same way;   dv_i = 0 if sticking.
 void CollocationStep::carry_tangents(MatrixXd &X)
 {
   const StepTable &table = *tried_;

@@ -5,10 +5,10 @@
 namespace gestell::coupling
 {
 
-/// How exact propagation takes the forces of the elements over a step.
+/// Interpolation of the elements' forces over a step in exact propagation.
 enum class ForceRule
 {
-  average,    ///< constant: mean along the way of the step; second order, stable at every contact
+  average,    ///< constant: mean over the path of the step; second order, stable at every contact
   linear,     ///< linear between the ends; second order, stable up to omega_contact h = 2 sqrt(3)
   collocation ///< polynomial through Gauss points; order 2, 4, 6 or 8
 };

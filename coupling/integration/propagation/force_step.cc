@@ -150,7 +150,7 @@ void PropagationContext::project_held_tangents(double t, Eigen::MatrixXd &X)
   }
 }
 
-/// W_h^T M^-1 W_h of the held measures.
+/// Factorises W_h^T M^-1 W_h of the sticking measures.
 void PropagationContext::factorise_delassus(double t)
 {
   const auto &held = system->forces().held();

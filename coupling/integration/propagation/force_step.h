@@ -13,7 +13,7 @@ namespace gestell::coupling
 
 class StateArchive;
 
-/// What the steps of exact propagation share: the system, its measures in modes, scales and counts.
+/// Common data of the steps of exact propagation: the system, its measures in modes, scales and counters.
 struct PropagationContext
 {
   const SecondOrderSystem *system = nullptr;
@@ -22,8 +22,8 @@ struct PropagationContext
   Eigen::VectorXd          u_begin, scale;       ///< [n_u] largest excursion of every measure so far
   Eigen::VectorXd          force;                ///< [n_u] largest force so far
   double                   error_tolerance = 0.; ///< 0: steps are fixed
-  double                   farthest        = 0.; ///< way() so far, of methods that control their error
-  double                   loads_way       = 0.; ///< to which loads to come would lead
+  double                   farthest        = 0.; ///< largest way() so far, for methods with error control
+  double                   loads_way       = 0.; ///< way() predicted from future loads
   IntegrationWork          work;
 
   Eigen::MatrixXd mobility;      ///< u'' of a force p: read_v^T put = W^T M^-1 W [n_u x n_u]
@@ -31,32 +31,31 @@ struct PropagationContext
 
   PropagationContext(const SecondOrderSystem &system, const ModalBlocks &modes, const NewtonOptions &newton);
 
-  /// A motion begins at x, u.
+  /// Starts a motion at x, u.
   void begin(const Eigen::VectorXd &x, const Eigen::VectorXd &u);
-  /// How far it has gone at x: min(|q - q_begin|, |q' - q'_begin|/omega_1), |q|^2 the sum of q^T M q of all states.
+  /// Distance of the motion at x: min(|q - q_begin|, |q' - q'_begin|/omega_1), where |q|^2 sums q^T M q of all states.
   double way(const Eigen::VectorXd &x) const;
 
-  /// Counts an excursion; floors: the way of one step, and what rounding in u leaves.
+  /// Updates the largest excursion; lower bounds: the distance in one step, and the rounding of u.
   void grow_scale(Eigen::VectorXd &grown, const Eigen::Ref<const Eigen::VectorXd> &u,
                   const Eigen::Ref<const Eigen::VectorXd> &v, double h) const;
 
-  /// u'' = read_v^T (Lambda x + constant) + W^T M^-1 W p into local.a; local.p of held measures becomes what keeps
-  /// their u'' zero.
+  /// u'' = read_v^T (Lambda x + constant) + W^T M^-1 W p into local.a; local.p of sticking measures becomes the force
+  /// that makes their u'' zero.
   void accelerate(const Eigen::VectorXd &x, LocalState &local);
-  /// What is left of the mobility of each measure while others are held, as a part of it: 0 for one that is held too.
+  /// Remaining mobility of each measure while others stick, relative to its own: 0 for a sticking measure.
   void mobile_parts(double t, Eigen::VectorXd &part);
   /// Lambda x [2 n_p].
   void free_rates(const double *x, double *rate) const;
-  /// Derivatives of what accelerate() finds: u'' and p into `local`, whose p
-  /// holds those of laws.
+  /// Derivatives of the results of accelerate(): u'' and p into `local`, whose p contains those of laws.
   void accelerate_tangents(const Eigen::MatrixXd &X, double t, LocalTangents &local);
-  /// Of project_held(), for tangents: no held measure moves.
+  /// Derivative of project_held(): sticking measures have no variation.
   void project_held_tangents(double t, Eigen::MatrixXd &X);
-  /// The impulse that gives held measures their rate exactly, into x and local.v: collocation meets it at its nodes
-  /// only.
+  /// Applies to x and local.v the impulse that gives sticking measures exactly their rate: collocation satisfies it
+  /// only at its nodes.
   void project_held(Eigen::VectorXd &x, LocalState &local);
 
-  void exchange(StateArchive &archive); ///< what was seen of the motion
+  void exchange(StateArchive &archive); ///< data collected from the motion
 
 private:
   void factorise_delassus(double t);
@@ -71,8 +70,8 @@ private:
  * One step of exact propagation: x(t_k + h) and the forces over the step, which are unknown.
  *
  *     begin(x, local)      a piece starts at x with the motion and forces of `local`
- *     solve(table, end)    tries a step from there; may be asked again with another table
- *     accept()             the end of the step tried last is where the next one starts
+ *     solve(table, end)    tries a step from there; may be repeated with another table
+ *     accept()             the next step starts at the end of the last one tried
  */
 class ForceStep
 {
@@ -92,19 +91,19 @@ public:
   virtual int error_order() const { return 1; }
   /// u, v, p inside the step solved last, sigma in [0, 1].
   virtual void interpolate(double sigma, LocalState &state) const = 0;
-  /// Relative error of interpolate() for a free motion that turns by `phase` [rad] in the step; at most 1.
+  /// Relative error of interpolate() for a free motion whose phase advances by `phase` [rad] in the step; at most 1.
   virtual double interpolation_error(double /*phase*/) const { return 0.; }
   /// p_j of the basis in the step solved last [n_basis n_u].
   virtual void forces(Eigen::VectorXd &p) const = 0;
   /// dx/ds [2 n_p x k] at the beginning of the last step becomes that at its end.
-  /// @throws std::invalid_argument for a rule that has none
+  /// @throws std::invalid_argument for a rule without tangents
   virtual void carry_tangents(Eigen::MatrixXd &X) = 0;
-  /// All that the steps to come depend on.
-  /// @param tables  that steps may have used, in an order that does not change
+  /// The complete state for later steps.
+  /// @param tables  all tables that steps may have used, in a fixed order
   virtual void exchange(StateArchive &archive, const std::vector<const StepTable *> &tables) = 0;
 };
 
-/// A table by its place in the list; none is taken as the end of it.
+/// Stores a table as its index in the list; null as the end of the list.
 void exchange_table(StateArchive &archive, const std::vector<const StepTable *> &tables, const StepTable *&table);
 
 std::unique_ptr<ForceStep> make_collocation_step(PropagationContext &context, int stages);
@@ -119,8 +118,8 @@ public:
   /// Weights of values and slopes (in sigma) for the value and its slope at sigma; each [n nodes].
   void weights(double sigma, double *value, double *slope, double *rate_value, double *rate_slope) const;
   int  size() const { return static_cast<int>(sigma_.size()); }
-  /// Largest error of the slope of a sine that turns by `phase` [rad] from sigma 0 to 1, relative to its own; that of
-  /// the value is smaller:  phase^(2 n - 1)/(2 n)! max |d/dsigma prod (sigma - sigma_i)^2|.
+  /// Largest error of the slope of a sine whose phase advances by `phase` [rad] from sigma 0 to 1, relative to its own;
+  /// that of the value is smaller:  phase^(2 n - 1)/(2 n)! max |d/dsigma prod (sigma - sigma_i)^2|.
   double error(double phase) const;
 
   static constexpr int max_nodes = 8;

@@ -18,7 +18,7 @@ struct FusedPass
   const Eigen::VectorXd *constant;
 };
 
-/// With n_f = N and n_r = 2 N known to the compiler; sums run over packets of four, in the same order always.
+/// For n_f = N and n_r = 2 N known at compile time; sums are over packets of four, always in the same order.
 template <int N>
 void fused_pass(const FusedPass &pass, const double *y_0, const double *p, double *y, double *free)
 {

@@ -72,7 +72,7 @@ RealModes real_modes(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C,
   RealModes                   modes;
   const SymmetricPencilSolver solver(C, M);
   MatrixXd                    R = orthonormal(motions_without_stiffness(C), M);
-  if (R.cols() > 1) // apart: those that B lets go and those it damps
+  if (R.cols() > 1) // separates undamped motions from damped ones
     R = R * SymmetricEigenSolver(R.transpose() * B * R).eigenvectors();
   modes.n_free = int(R.cols());
   modes.Phi    = solver.eigenvectors();
@@ -422,7 +422,7 @@ ModalBlocks modal_blocks(const SecondOrderSystem &system, SharedModes *shared)
   for (std::size_t j = 0; j < harmonics.size(); ++j)
   {
     add_harmonic(harmonics[j], result, 2 * (n + Eigen::Index(j)));
-    // cos, sin turn as x' = [0 -w; w 0] x
+    // cos, sin satisfy x' = [0 -w; w 0] x
     result.blocks.push_back({ModalBlock::oscillating, 0., harmonics[j].omega});
     result.harmonics.push_back(harmonics[j].omega);
   }

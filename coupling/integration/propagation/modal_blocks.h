@@ -32,12 +32,13 @@ struct ModalBlock
  *
  *     x' = Lambda x + G f,     q = Q x,   q' = V x,     Lambda block diagonal, x [2 n_b].
  *
- * Motions without stiffness are found as the null space of C scaled to unit diagonal, and treated exactly: free where B
- * lets them go (a double zero eigenvalue), with one zero and one decaying eigenvalue where it damps them.  Proportional
- * damping keeps the real modes; any other takes the eigenvectors of the state matrix, scaled so that it is nearly skew.
+ * Motions without stiffness are found as the null space of C scaled to unit diagonal, and treated exactly: as free
+ * blocks (a double zero eigenvalue) if B does not damp them, otherwise with one zero and one decaying eigenvalue.  With
+ * proportional damping the modes are real; any other damping requires the eigenvectors of the state matrix, scaled so
+ * that it is nearly skew-symmetric.
  *
- * Behind the blocks of the modes come those of the load: each harmonic turns in a block of its own without input, whose
- * columns of Q and V are the forced motion.
+ * The blocks of the modes are followed by those of the load: each harmonic is a separate rotating block without input,
+ * whose columns of Q and V are the forced motion.
  */
 struct ModalBlocks
 {
@@ -46,7 +47,7 @@ struct ModalBlocks
   Eigen::MatrixXd         Q, V;           ///< [n x 2 n_b]
   Eigen::MatrixXd         G;              ///< [2 n_modal x n]
   Eigen::MatrixXd         from_q, from_v; ///< x = from_q q + from_v q' of the modal blocks [2 n_modal x n]
-  std::vector<double>     harmonics;      ///< omega of the blocks behind the modal ones
+  std::vector<double>     harmonics;      ///< omega of the blocks after the modal ones
 
   /// x [2 n_b] at t for q, q' [n].
   Eigen::VectorXd state(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) const;
@@ -54,21 +55,21 @@ struct ModalBlocks
   void turn_harmonics(double t, Eigen::VectorXd &x) const;
 };
 
-/// Those of the matrices alone [n x n], symmetric, without loads.
+/// Blocks of symmetric matrices [n x n], without loads.
 /// @param coordinate_name  of coordinate i, for messages
 /// @throws std::invalid_argument: M is singular, or eigenvectors coincide
 ModalBlocks modal_blocks(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
                          const std::function<std::string(int)> &coordinate_name);
 
-/// The modes of the matrices that were asked for last: systems of a family, whose forces and loads differ but whose
-/// matrices do not, share them.
+/// The modes of the latest matrices, shared by systems of a family that have the same matrices but different forces and
+/// loads.
 class SharedModes
 {
 public:
-  /// As modal_blocks(M, B, C, coordinate_name), recomputed where a matrix differs in any digit.
+  /// Like modal_blocks(M, B, C, coordinate_name), recomputed if a matrix differs in any digit.
   const ModalBlocks &of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
                         const std::function<std::string(int)> &coordinate_name);
-  int                found() const { return found_; } ///< how often
+  int                found() const { return found_; } ///< number of computations
 
 private:
   Eigen::MatrixXd M_, B_, C_;
@@ -76,12 +77,12 @@ private:
   int             found_ = 0;
 };
 
-/// @param shared  with systems of the same matrices; null: the modes are recomputed
+/// @param shared  modes shared with systems of the same matrices; null: the modes are recomputed
 /// @throws std::invalid_argument with the reason: the system is not dense, M is singular, the load is not a sum of
-/// harmonics, an undamped mode is driven at its own frequency, or eigenvectors coincide.
+/// harmonics, an undamped mode is excited at its own frequency, or eigenvectors coincide.
 ModalBlocks modal_blocks(const SecondOrderSystem &system, SharedModes *shared = nullptr);
 
-/// F(Lambda h) for functions F of a complex number: [f11 f12; f21 f22] by columns a, b as the block's kind has it.
+/// F(Lambda h) for functions F of a complex number: [f11 f12; f21 f22] for the kind of the block.
 struct Block2
 {
   double a11, a12, a21, a22;

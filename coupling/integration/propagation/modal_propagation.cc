@@ -14,14 +14,14 @@ namespace
 {
 constexpr double safety = 0.5; ///< a step is doubled if its error, scaled to it, stays below this
 
-/// How fast the motions of a block turn or die away [1/s].
+/// Frequency or decay rate of a block [1/s].
 double rate_of(const ModalBlock &block)
 {
   return block.kind == ModalBlock::free ? 0. : std::max(std::abs(block.s), std::abs(block.w));
 }
 
-/// A step to begin with, the largest one: an eighth of the longest period of the base system.  Without one, 10 ms: few
-/// for a run of bodies that nothing holds, and the error halves it as often as the motion asks.
+/// Initial step, which is the largest one: an eighth of the longest period of the base system.  Without a period, 10
+/// ms: few steps for a run of unconstrained bodies, and the error control halves it as often as necessary.
 double natural_step(const ModalBlocks &modes)
 {
   double slowest = 0.;
@@ -202,7 +202,7 @@ void ModalPropagation::advance()
       local_.t = t_full_ = target.t;
       stepped_           = true;
       ++context_.work.steps;
-      // Of two steps: where steps are too long for the motion one may be small by chance.
+      // For two steps: if steps are too long for the motion one error may be small by coincidence.
       const double grown = std::max(error, last_error_) * std::ldexp(1., force_->error_order());
       last_error_        = error;
       if (rung_ > 0 && grown < safety)
@@ -308,8 +308,8 @@ void ModalPropagation::interpolate(double t, LocalState &state) const
   context_.accelerate(x, state);
 }
 
-/// The interpolation of the measures over the last step is as good as their integration: what modes that turn far move
-/// in them is small beside their largest excursions.
+/// Whether the interpolation of the measures over the last step is as accurate as their integration: modes with a large
+/// phase per step move the measures little compared with their largest excursions.
 bool ModalPropagation::is_smooth(double h) const
 {
   if (h_smooth_ == h)
@@ -336,8 +336,8 @@ bool ModalPropagation::is_smooth(double h) const
   return smooth_;
 }
 
-/// By the modes that move a measure by more than a small share of its largest excursion, at the begin of the step or at
-/// its end, whatever their phase.
+/// From the modes that move a measure by more than a small share of its largest excursion, at the start of the step or
+/// at its end, for any phase.
 int ModalPropagation::parts_of_step() const
 {
   const double         h             = local_.t - t_begin_;
@@ -360,7 +360,7 @@ int ModalPropagation::parts_of_step() const
       const double x_1 = std::abs(x_work_[b]), x_2 = std::abs(x_work_[measures.n_p + b]);
       const auto   moved = [&](const auto &read)
       { return x_1 * read.row(b).cwiseAbs().array() + x_2 * read.row(measures.n_p + b).cwiseAbs().array(); };
-      constexpr double looked_at = 1e-3; // what a mode moves in a measure, of its largest excursion
+      constexpr double looked_at = 1e-3; // least part of a mode in a measure's largest excursion
       if (((moved(measures.read_u) + moved(measures.read_v) / rate).transpose() > looked_at * context_.scale.array())
               .any())
         most = h * rate;
@@ -370,7 +370,7 @@ int ModalPropagation::parts_of_step() const
   return most > furthest_turn ? int(std::min(std::ceil(most / furthest_turn), double(most_parts))) : 1;
 }
 
-/// Collocation meets the rates that are held at its nodes only.
+/// Collocation satisfies the rates of sticking measures only at its nodes.
 void ModalPropagation::hold_rates(double t, Eigen::VectorXd &x) const
 {
   if (system_.forces().held().empty())

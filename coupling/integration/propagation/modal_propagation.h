@@ -14,26 +14,26 @@ namespace gestell::coupling
 {
 
 /**
- * Exact propagation of the linear base system (5.5.2/1) in its modes, the forces of the elements interpolated in time.
+ * Exact propagation of the linear base system (5.5.2/1) in its modes, with element forces interpolated in time.
  *
  *     x' = Lambda x + G (f_t + W p),     x(t + h) = e^(Lambda h) x + int_0^h e^(Lambda (h - s)) G (f_t + W p) ds
  *
- * Lambda is block diagonal (ModalBlocks), constant and harmonic loads are carried exactly, p is a polynomial over the
- * step (ForceRule).  The step is therefore bound to the elements alone: a frame mode of 5 kHz costs no accuracy and no
- * stability.  A step reads and writes every mode once; n_u unknowns remain.
+ * Lambda is block diagonal (ModalBlocks), constant and harmonic loads are propagated exactly, and p is a polynomial
+ * over the step (ForceRule).  Therefore only the elements limit the step: a frame mode of 5 kHz affects neither
+ * accuracy nor stability.  A step reads and writes every mode once; n_u unknowns remain.
  *
  *     average      order 2, stable at every contact
  *     linear       order 2, one evaluation a step, stable up to omega_contact h = 2 sqrt(3)
  *     collocation  order 2 s with s Gauss points, 2 <= 2 s <= 8
  *
- * Inside a step the measures are interpolated, or, with collocation, where modes that move them turn too far in a step
- * for that, read from the modes.
+ * Inside a step the measures are interpolated; with collocation they are computed from the modes if the phase of these
+ * advances too much in a step for interpolation.
  *
- * The force that holds a measure follows from the equation of motion at x, at ends of steps and inside.
+ * The force of a sticking measure follows from the equation of motion at x, at ends of steps and inside.
  *
- * Steps lie on the grid t_begin + k h / 2^r: behind an event a shorter step leads back to it, so that all others share
- * their tables.  Where Newton fails, or with a tolerance the local error is too large, r grows; it falls again where
- * the grid allows.
+ * Steps are on the grid t_begin + k h / 2^r: after an event a shorter step returns to it, so that all others share
+ * their tables.  If Newton fails, or with a tolerance if the local error is too large, r grows; it falls again when the
+ * grid allows it.
  */
 class ModalPropagation : public TimeIntegrator, public ErrorControl, public MotionTangents, public Resumable
 {
@@ -49,7 +49,7 @@ public:
     std::shared_ptr<SharedModes> modes; ///< of systems with the same matrices; null: its own
   };
 
-  /// @throws std::invalid_argument as modal_blocks()
+  /// @throws std::invalid_argument as modal_blocks() does
   ModalPropagation(const SecondOrderSystem &system, const Options &options);
 
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
@@ -77,11 +77,11 @@ public:
   LocalTangents local_rates() override;
 
 private:
-  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>; // rows are read alone
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>; // only rows are read
 
   static constexpr int finest = 30; ///< ticks are h / 2^finest
 
-  /// Where the step under way leads.
+  /// End of the current step.
   struct Target
   {
     double  t = 0., h = 0.;
@@ -117,7 +117,7 @@ private:
   int64_t                    tick_    = 0;
   bool                       on_grid_ = true, cut_ = false, stepped_ = false;
   int                        rung_       = 0;
-  double                     last_error_ = 0.; ///< of the step before, in tolerances
+  double                     last_error_ = 0.; ///< of the previous step, in tolerances
   Target                     target_;
   LocalState                 local_, local_begin_;
   Eigen::VectorXd            x_;
@@ -126,10 +126,10 @@ private:
   mutable LocalState         held_; ///< scratch of hold_rates()
   mutable Instant            now_;
   mutable bool               now_known_ = false;
-  mutable double             h_smooth_  = 0.; ///< of the last step, once is_smooth() looked at it; else 0
+  mutable double             h_smooth_  = 0.; ///< of the last step, if is_smooth() has checked it; else 0
   mutable bool               smooth_    = true;
-  double                     fastest_   = 0.; ///< of the motions of all blocks [1/s]
-  mutable double             t_inside_  = 0.; ///< of x_inside_, inside the last step; else it is not known
+  double                     fastest_   = 0.; ///< of all blocks [1/s]
+  mutable double             t_inside_  = 0.; ///< time of x_inside_, inside the last step; else it is unknown
 };
 
 } // namespace gestell::coupling

@@ -99,7 +99,7 @@ void phi_of(const Number &z, int k, Number *phi)
 
 void phi_functions(const ModalBlock &block, double h, int k, Block2 *phi)
 {
-  constexpr int max_k = 10; // room; collocation of order 8 asks for 4
+  constexpr int max_k = 10; // size of the array; collocation of order 8 needs 4
   switch (block.kind)
   {
   case ModalBlock::oscillating:

@@ -139,7 +139,7 @@ std::unique_ptr<TimeIntegrator> PropagationMethod::make(const SecondOrderSystem 
   options.tolerance = o.tolerance;
   options.newton    = o.newton;
   options.modes     = o.modes;
-  // Newton's tolerance in units of that of the error: it counts little beside it
+  // Newton's tolerance in units of the error tolerance: small compared with it
   constexpr double share_of_newton = 1e-2;
   if (controlled(o))
     options.newton.tolerance = std::max(share_of_newton * o.tolerance, finest_tolerance);
@@ -154,7 +154,7 @@ Eigen::MatrixXd PropagationMethod::amplification_matrix(const MethodOptions &opt
     return exact_flow(o);
   if (collocates(options))
     return contact_step(options.order, o).cast<double>();
-  // The acceleration is what the force at the state makes it: h^2 a = -Omega^2 x - 2 zeta Omega h v.
+  // The acceleration follows from the force at the state: h^2 a = -Omega^2 x - 2 zeta Omega h v.
   Eigen::Matrix<double, 3, 2> lift;
   lift << 1., 0., 0., 1., -o.omega_h * o.omega_h, -2. * o.zeta * o.omega_h;
   return (newmark_matrix(of_contact(options), o) * lift).topRows<2>();
@@ -203,7 +203,7 @@ LongMatrix2 contact_step(int order, const TestOscillator &o)
   const long double Omega = o.omega_h, k = Omega * Omega, c = 2.L * o.zeta * Omega;
   const LongVector  nodes = collocation_points(s), end = LongVector::Ones(1);
   const LongMatrix  velocity = integrals(nodes, nodes, 1), place = integrals(nodes, nodes, 2);
-  LongMatrix        start(s, 2); // force at the nodes due to x_0 and h v_0 alone
+  LongMatrix        start(s, 2); // force at the nodes due to x_0 and h v_0 only
   start.col(0).setConstant(-k);
   start.col(1)       = (-k * nodes.array() - c).matrix();
   const LongMatrix p = (LongMatrix::Identity(s, s) + k * place + c * velocity).partialPivLu().solve(start);

@@ -6,7 +6,7 @@
 namespace gestell::coupling
 {
 
-/// Modal propagation, "exact" in scenes: the base system exactly, the forces of the elements by a ForceRule.
+/// Modal propagation, "exact" in scenes: exact for the base system, with a ForceRule for the elements.
 const IntegrationMethod &propagation_method();
 
 using LongMatrix2 = Eigen::Matrix<long double, 2, 2>;

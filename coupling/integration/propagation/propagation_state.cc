@@ -4,7 +4,7 @@
 namespace gestell::coupling
 {
 
-/// Tables follow from the lengths of their steps.
+/// Tables are not stored: they follow from the step lengths.
 void ModalPropagation::exchange(StateArchive &archive)
 {
   std::vector<int> rungs;

@@ -139,7 +139,7 @@ void StepTable::fill(const ModalMeasures &system, const ForceBasis &basis, doubl
   constant = weighted_.col(n_basis * n_u);
 }
 
-/// Rows of block b up to point i of the basis, the last of which is the end of the step.
+/// Fills the rows of block b up to point i of the basis; the last point is the end of the step.
 void StepTable::fill_block(const ModalMeasures &system, const ForceBasis &basis, int i, int b)
 {
   static constexpr double factorial[] = {1., 1., 2., 6., 24., 120., 720., 5040., 40320., 362880.};
@@ -176,7 +176,7 @@ void StepTable::fill_block(const ModalMeasures &system, const ForceBasis &basis,
   const Block2 steady{c * h * phi[1].a11, c * h * phi[1].a12, c * h * phi[1].a21, c * h * phi[1].a22};
   multiply(steady, system.constant[one], system.constant[two], weighted_(one, n_basis * n_u),
            weighted_(two, n_basis * n_u));
-  E.row(b) << phi[0].a11, phi[0].a12, phi[0].a21, phi[0].a22; // that of the end remains
+  E.row(b) << phi[0].a11, phi[0].a12, phi[0].a21, phi[0].a22; // the values at the end remain
 }
 
 void StepTable::carry(const VectorXd &x, VectorXd &x_end) const

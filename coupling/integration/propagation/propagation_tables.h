@@ -10,11 +10,11 @@ namespace gestell::coupling
 {
 
 /**
- * The base system seen from its measures: blocks of modes, what the forces of the elements put into them and what the
- * measures read from them.
+ * The base system as seen by its measures: blocks of modes, the input of the elements' forces, and the output to the
+ * measures.
  *
- * States are kept as all first states of the blocks, then all second ones, each padded to a multiple of four by blocks
- * that stay zero: x [2 n_p].
+ * States are stored as all first states of the blocks, then all second ones, each padded to a multiple of four by zero
+ * blocks: x [2 n_p].
  */
 struct ModalMeasures
 {
@@ -29,12 +29,12 @@ struct ModalMeasures
   ModalMeasures(const ModalBlocks &modes, const SecondOrderSystem &system);
 };
 
-/// Matrix [2 n_b columns] in the order of ModalBlocks, by columns in the order of ModalMeasures: [rows x 2 n_p].
+/// Matrix [2 n_b columns] in the order of ModalBlocks, with columns reordered as in ModalMeasures: [rows x 2 n_p].
 Eigen::MatrixXd reordered(const Eigen::MatrixXd &by_blocks, int n_p);
 
 /**
  * Forces over a step of length h as polynomials of sigma = (t - t_k)/h: p(sigma) = sum_j p_j l_j(sigma), and the points
- * at which the measures are asked for.
+ * at which the measures are evaluated.
  */
 struct ForceBasis
 {
@@ -43,14 +43,14 @@ struct ForceBasis
 
   static ForceBasis constant();
   static ForceBasis linear();
-  static ForceBasis gauss(int s); ///< Lagrange's polynomials at the s Gauss points, which are the points, and 1
+  static ForceBasis gauss(int s); ///< Lagrange polynomials at the s Gauss points, which are the points, and 1
 
   int    size() const { return static_cast<int>(l.rows()); }
   double value(int j, double sigma) const;
 };
 
 /**
- * Everything about one step length: from x(t_k) and the p_j follow exactly
+ * Tables for one step length: from x(t_k) and the p_j follow exactly
  *
  *     x(t_k + h)   = E x + sum_j in_j p_j + c
  *     u(t_k + c_i h) = rows_i^T x + sum_j S_u(i, j) p_j + ...,      u' likewise.
@@ -67,7 +67,7 @@ struct StepTable
   Eigen::VectorXd row_constant; ///< [n_points 2 n_u]
   Eigen::MatrixXd S_u, S_v;     ///< [n_points n_u x n_basis n_u]
 
-  /// Allocates only when it is filled for the first time.
+  /// Allocates only when called for the first time.
   void fill(const ModalMeasures &system, const ForceBasis &basis, double h);
   /// x_end = E x
   void carry(const Eigen::VectorXd &x, Eigen::VectorXd &x_end) const;
@@ -78,7 +78,7 @@ private:
   Eigen::MatrixXd weighted_; ///< [2 n_p x n_u]
 };
 
-/// x at the time tau into a step of length h, from x at its begin and the p_j of the whole step [n_basis n_u].
+/// x at the time tau after the start of a step of length h, from x at its start and the p_j [n_basis n_u].
 void carry_inside(const ModalMeasures &system, const ForceBasis &basis, double tau, double h, const Eigen::VectorXd &p,
                   Eigen::VectorXd &x);
 

@@ -34,9 +34,9 @@ CharacteristicRoots roots_of_z(const std::vector<LongComplex> &polynomial)
   return roots;
 }
 
-/// det is 1 without damping, which as a margin would hide how close |trace| comes to its limit between two islands of
-/// growth.  Two roots that meet, as those of a motion that hardly turns in a step do at r = 1, rounding of trace and
-/// det parts by its root, far above its growth: a discriminant of its size is that of a double root.
+/// det is 1 without damping, which as a margin would hide how close |trace| is to its limit between two intervals of
+/// growth.  For a double root, such as r = 1 for a motion with a small phase per step, rounding of trace and det splits
+/// the roots by its square root, far above its growth: a discriminant of that size is treated as a double root.
 CharacteristicRoots roots_of_map(const Eigen::Matrix<long double, 2, 2> &A)
 {
   const long double trace = A(0, 0) + A(1, 1), det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);

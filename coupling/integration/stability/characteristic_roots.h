@@ -17,25 +17,25 @@ struct CharacteristicRoot
   long double log_abs;
 };
 
-/// Roots, and a margin that is negative where none of them grows and positive where one does, without the noise of
-/// rounding that |r| - 1 has along an axis of neutral stability.
+/// Roots, and a margin that is negative if none of them grows and positive if one does.  It lacks the rounding noise
+/// that |r| - 1 has along an axis of neutral stability.
 struct CharacteristicRoots
 {
   std::vector<CharacteristicRoot> all;
   long double                     margin;
 };
 
-/// mu = (-zeta + i sqrt(1 - zeta^2)) omega h: the motion itself turns by exp(mu) in a step.
+/// mu = (-zeta + i sqrt(1 - zeta^2)) omega h: the exact solution is multiplied by exp(mu) in a step.
 LongComplex exponent(const TestOscillator &o);
 
-/// Roots from z = (r - 1)/(r + 1), zeros of a polynomial: |r| > 1 where Re z > 0.  Rounding moves z by 1e-18 of itself;
-/// what it moves |r| by counts as no growth.
+/// Roots from z = (r - 1)/(r + 1), zeros of a polynomial: |r| > 1 if Re z > 0.  Growth of |r| within the relative
+/// rounding 1e-18 of z is ignored.
 CharacteristicRoots roots_of_z(const std::vector<LongComplex> &polynomial);
 
-/// Of a 2 x 2 map with det <= 1 but for rounding: stable while |trace| <= 1 + det.
+/// Roots of a 2 x 2 map with det <= 1 up to rounding: stable while |trace| <= 1 + det.
 CharacteristicRoots roots_of_map(const Eigen::Matrix<long double, 2, 2> &A);
 
-/// Eigenvalues of an amplification matrix; growth below 1e-13, the rounding of simple ones, does not count.
+/// Eigenvalues of an amplification matrix; growth below 1e-13, the rounding of simple ones, is ignored.
 CharacteristicRoots roots_of_matrix(const Eigen::MatrixXd &A);
 
 } // namespace gestell::coupling

@@ -6,7 +6,7 @@
 namespace gestell::coupling
 {
 
-/// Largest |x| / x_0 or, for a start with velocity, |x| omega / v_0, and largest |x'| / omega likewise.
+/// Largest |x| / x_0 or, for an initial velocity, |x| omega / v_0; the largest |x'| / omega is scaled in the same way.
 struct Overshoot
 {
   double displacement, velocity;
@@ -19,7 +19,7 @@ enum class OscillatorStart
   moving     ///< x = 0, x' = omega
 };
 
-/// In the first 20 steps, from consistent accelerations.
+/// Overshoot in the first 20 steps, from consistent accelerations.
 Overshoot overshoot(const MethodOptions &options, const TestOscillator &oscillator, OscillatorStart start,
                     FirstSteps first_steps = FirstSteps::as_integrated);
 

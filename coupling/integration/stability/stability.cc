@@ -97,7 +97,7 @@ namespace
 
 using Margin = std::function<long double(double)>; // of ln(omega h)
 
-/// Where the sign of f changes between a and b.
+/// Position between a and b at which f changes its sign.
 double boundary(const Margin &f, double a, double b)
 {
   const bool grows = f(a) > 0.L;
@@ -120,7 +120,7 @@ struct Sample
 std::vector<Sample> samples(const Margin &f)
 {
   constexpr int       n           = 600;                       // 46 a decade of omega h
-  constexpr double    least_omega = 1e-6, largest_omega = 1e7; // omega h between which intervals are looked for
+  constexpr double    least_omega = 1e-6, largest_omega = 1e7; // range of omega h in which intervals are searched
   const double        a = std::log(least_omega), b = std::log(largest_omega);
   std::vector<Sample> grid(n + 1), all;
   for (int i = 0; i <= n; ++i)

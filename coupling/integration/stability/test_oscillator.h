@@ -3,12 +3,12 @@
 namespace gestell::coupling
 {
 
-/// Whose spring makes the test oscillator vibrate.  It matters for exact propagation only, which carries the base
-/// system exactly and interpolates the forces of elements.
+/// Origin of the test oscillator's stiffness.  It matters only for exact propagation, which propagates the base system
+/// exactly and interpolates the forces of elements.
 enum class Spring
 {
   base,   ///< of the linear base system
-  contact ///< of an element that is closed: the base system is a free mass
+  contact ///< of a closed element: the base system is a free mass
 };
 
 /// A method with a fixed step on the test oscillator  x'' + 2 zeta omega x' + omega^2 x = 0.
@@ -19,11 +19,11 @@ struct TestOscillator
   Spring spring = Spring::base;
 };
 
-/// The first steps of a method that has no past yet.
+/// The first steps of a method without past points.
 enum class FirstSteps
 {
-  as_integrated, ///< as the integrator begins: BDF with chains of implicit Euler steps
-  order_ramp     ///< orders 1, 2, ... p, as tables of the literature have it
+  as_integrated, ///< as the integrator starts: BDF with chains of implicit Euler steps
+  order_ramp     ///< orders 1, 2, ... p, as in tables of the literature
 };
 
 } // namespace gestell::coupling

@@ -31,7 +31,7 @@ void CondensedMatrix::set_joints(const Eigen::MatrixXd &S, const ConstraintJacob
 
 namespace
 {
-/// What a held measure would move under a unit force, by which its unknown becomes a motion like all others.
+/// Displacement of a sticking measure under a unit force, which converts its unknown to a displacement like all others.
 double own_compliance(const Eigen::MatrixXd &S, int measure)
 {
   const double own = S(measure, measure);

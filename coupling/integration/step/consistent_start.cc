@@ -85,7 +85,7 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
   {
     refuse_singular(system, method, singular.what());
   }
-  // Solvers without a check of their own answer a singular M by values that are no numbers.
+  // Solvers without their own check return values that are not finite for a singular M.
   f_.setOnes();
   mass_->solve(f_, product_);
   if (!product_.allFinite())
@@ -187,8 +187,8 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
     move(v, local.v, local.t);
 }
 
-/// The correction of u'' against the terms it is the sum of.  Bodies in joints may be held by them: rounding of the
-/// others is what is left of their acceleration.
+/// Compares the correction of u'' with the terms of its sum.  If joints constrain bodies completely, only the rounding
+/// of these terms is left of the acceleration.
 bool ConsistentStart::is_small(const Eigen::VectorXd &p)
 {
   double largest = 0.;
@@ -224,7 +224,7 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
       require_law_values(system_, local);
     ++work.newton;
     ++work.evaluations;
-    // No force depends on u'' or multipliers: one step finds all.
+    // If no force depends on u'' or multipliers, one step is sufficient.
     const bool linear = tangent_.isZero(0.) && !system_.forces().need_multipliers();
     linear_           = linear_ && linear;
     if (joints)
@@ -278,7 +278,7 @@ void ConsistentStart::hold(const Eigen::VectorXd &q, const Eigen::VectorXd &v, L
     local.p[holding_[i]] = held_p_[Eigen::Index(i)];
 }
 
-/// What hold() needs of the measures that are held now.
+/// Prepares hold() for the measures that stick now.
 void ConsistentStart::prepare_hold(double t)
 {
   const auto &held = system_.forces().held();

@@ -10,63 +10,63 @@ namespace gestell::coupling
 
 class StateArchive;
 
-/// Rates of sticking measures in v [n_u] become those of sticking, free of rounding: a motion released there begins
-/// exactly at the zero of the guard by which it would stick again.
+/// Sets the rates of sticking measures in v [n] to those of sticking, free of rounding, so that a motion released there
+/// starts exactly at the zero of the guard by which it would stick again.
 void keep_held_rates(const SecondOrderSystem &system, Eigen::VectorXd &v);
 
 /**
- * The acceleration that belongs to q and q' at an instant:
+ * The consistent acceleration for q and q' at an instant:
  *
  *     M a = f_t + W p(t, u, u', u'') - B q' - C q.
  *
- * Condensed to the measures, with D = W^T M^-1 W [n_u x n_u]:  u'' = u''_free + D p, which Newton solves where forces
- * depend on u''.  A measure that is held has u'' = 0, and its force p follows from the same equation (index 1); so do
- * the multipliers of ideal joints from g'' = G u'' + bias = 0,
+ * Condensed to the measures, with D = W^T M^-1 W [n_u x n_u]:  u'' = u''_free + D p, solved by Newton's method if
+ * forces depend on u''.  A sticking measure has u'' = 0, and its force p follows from the same equation (index 1).  In
+ * the same way the multipliers of ideal joints follow from g'' = G u'' + bias = 0,
  *
  *     G D G^T lambda = -bias - G (u''_free + D p),
  *
- * whose accuracy is that of q and q', whatever integrator they came from.
+ * with the accuracy of q and q', for any integrator.
  *
  * With many joints the same equations are solved uncondensed, for a and lambda at once, by SaddleMatrix with A = M, f
  * = 1.
  *
- * Methods that carry the acceleration from step to step begin with it; M has to be regular for them.
+ * Methods with the acceleration in their state start with it; they require a regular M.
  */
 class ConsistentStart
 {
 public:
   /// Factorises M.
   /// @param method  for messages: "Newmark"
-  /// @throws std::invalid_argument if M is singular, naming a coordinate without mass
+  /// @throws std::invalid_argument if M is singular, with a coordinate without mass
   ConsistentStart(const SecondOrderSystem &system, const std::string &method,
                   JointSolver joints = JointSolver::automatic);
 
-  /// a [n] at local.t, for which local.u and local.v belong to q, v [n]; fills local.a, local.p and local.lambda.
+  /// Computes a [n] at local.t; local.u and local.v must belong to q, v [n].  Fills local.a, local.p and local.lambda.
   /// @throws ConvergenceFailure if p depends on u'' and Newton does not converge, or if joints depend on each other
   void solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
              IntegrationWork &work);
 
-  /// The forces that hold measures, into local.p with u'' = 0 of these measures, at any instant of a motion: as
-  /// solve(), by as few products as there are held measures where neither joints nor forces that depend on u'' take
-  /// part,
+  /// Writes the forces of sticking measures, for which u'' = 0, into local.p, at any instant of a motion.  The result
+  /// is that of solve(); without joints and without forces that depend on u'' it needs only one product per sticking
+  /// measure:
   ///
   ///     D_hh p_h = -(M^-1 W_h)^T (f_t - B q' - C q) - D_ho p_o.
   ///
   /// The branches must be those of the last solve().
   void hold(const Eigen::VectorXd &q, const Eigen::VectorXd &v, LocalState &local, IntegrationWork &work);
 
-  /// The position nearest to q with g(t, u) = 0, then the velocity nearest to v with G u' + rate = 0, both measured by
-  /// their kinetic energy; local.u and local.v with them.
-  /// @throws ConvergenceFailure if joints depend on each other or g cannot be closed
+  /// Projects q to the nearest position with g(t, u) = 0, then v to the nearest velocity with G u' + rate = 0, both in
+  /// the norm of the kinetic energy; updates local.u and local.v.
+  /// @throws ConvergenceFailure if joints are redundant or cannot be assembled
   void project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState &local);
 
-  /// What was seen of the forces; matrices of held measures are made again.
+  /// Data collected about the forces; matrices of sticking measures are computed again.
   void exchange(StateArchive &archive);
 
 private:
-  static constexpr double converged        = 1e-12; ///< correction of u'', relative to the terms it is the sum of
+  static constexpr double converged        = 1e-12; ///< correction of u'', relative to the terms of its sum
   static constexpr int    max_iterations   = 25;
-  static constexpr int    most_by_friction = 8 * max_iterations; ///< where they converge linearly
+  static constexpr int    most_by_friction = 8 * max_iterations; ///< with friction in joints: linear convergence
 
   int               most_iterations() const;
   [[noreturn]] void fail_unconverged(double t) const; ///< g_ is the last change of the multipliers
@@ -91,8 +91,8 @@ private:
   std::unique_ptr<CondensedMatrix> matrix_;                   ///< null: sparse
   std::unique_ptr<SaddleMatrix>    saddle_;                   ///< null: condensed
   Eigen::VectorXd                  y_, load_;                 ///< [n + n_c + n_h], [n]
-  bool                             linear_ = true;            ///< no force was seen to depend on u'' or multipliers
-  std::vector<int>                 holding_;                  ///< measures that hold_f_ to delassus_ are made for
+  bool                             linear_ = true;            ///< no force has depended on u'' or multipliers so far
+  std::vector<int>                 holding_;                  ///< measures for which hold_f_ to delassus_ are computed
   Eigen::MatrixXd                  hold_f_, hold_v_, hold_q_; ///< M^-1 W_h, B M^-1 W_h, C M^-1 W_h [n x n_h]
   Eigen::VectorXd                  held_p_, a_;               ///< [n_h], [n]
   SmallLu                          delassus_;                 ///< D_hh

@@ -35,7 +35,7 @@ void ConsistentStart::move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, doubl
   xi.noalias() += system_.forces().directions().transpose() * y_.head(x.size());
 }
 
-/// The terms of which u'' is the sum: |u''_free| and W^T M^-1 W |p|, the largest of all measures.
+/// The terms of the sum u'': |u''_free| and W^T M^-1 W |p|, the largest of all measures.
 double ConsistentStart::largest_acceleration(const Eigen::VectorXd &p)
 {
   const auto &W = system_.forces().directions();
@@ -49,7 +49,7 @@ double ConsistentStart::largest_acceleration(const Eigen::VectorXd &p)
   return std::max(a_free_.cwiseAbs().maxCoeff(), correction_.cwiseAbs().maxCoeff());
 }
 
-/// From a = M^-1 (f_t - B q' - C q), with that right hand side in f_.
+/// Starts with a = M^-1 (f_t - B q' - C q), with that right-hand side in f_.
 void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work)
 {
   const auto &W    = system_.forces().directions();
@@ -73,7 +73,7 @@ void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, Inte
     G_.set_forces(local.lambda, local.p);
     ++work.newton;
     ++work.evaluations;
-    // No force depends on u'' or multipliers: one step finds all.
+    // If no force depends on u'' or multipliers, one step is sufficient.
     const bool linear = tangent_.isZero(0.) && !system_.forces().need_multipliers();
     factorise_sparse(local.t);
     ++work.factorisations;

@@ -14,7 +14,7 @@ namespace gestell::coupling
 namespace
 {
 constexpr double rounding       = 8. * std::numeric_limits<double>::epsilon(); ///< of sums of a few terms
-constexpr double joint_rounding = 8.;   ///< times that of one number: several terms, enlarged by levers
+constexpr double joint_rounding = 8.;   ///< times that of one number: several terms, amplified by levers
 constexpr double most_left      = 1e-7; ///< of the excursion of a measure, however large the local error is
 } // namespace
 
@@ -45,7 +45,7 @@ void fail_dependent(const SecondOrderSystem &system, int row, double t)
 
 namespace
 {
-/// W acts on the coordinates N alone.
+/// Whether W acts only on the coordinates N.
 bool leads(const std::vector<int> &N, const Eigen::SparseMatrix<double> &W)
 {
   std::vector<char> is_in_N(W.rows(), 0);
@@ -63,7 +63,7 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
     : system_(system), options_(options), force_blocks_(system.forces().blocks()), G_(system.joints().blocks()),
       most_left_(most_left)
 {
-  // What positions are wrong by, multipliers are by m/h^2 times that.
+  // An error of positions causes an error of multipliers larger by the factor m/h^2.
   if (G_.n_rows() > 0)
   {
     // of the tolerance: multipliers are wrong by m / h^2 times what positions are
@@ -71,7 +71,7 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
     options_.tolerance               = std::max(share_of_joints * options_.tolerance, finest_tolerance);
     options_.share_of_error *= share_of_joints;
     most_left_ *= share_of_joints;
-    // Friction by multipliers lags one iteration behind them, which the motion hardly shows.
+    // Friction by multipliers lags one iteration behind them, with little effect on the motion.
     if (system.forces().need_multipliers())
       options_.share_of_error = 0.;
   }
@@ -108,7 +108,7 @@ void ImplicitStep::forget_contraction()
   unseen_                           = 0;
 }
 
-/// Newton contracts less in a longer step, and a prediction over another length errs by another amount.
+/// Resets the contraction for another form: longer steps converge more slowly, and predictions err differently.
 void ImplicitStep::note_form(const StepForm &form)
 {
   if (form.time == form_time_)
@@ -167,8 +167,8 @@ void ImplicitStep::add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd 
         p[block.first_measure + i] += *value++ * xi[block.first_measure + j];
 }
 
-/// Floors: the distance moved in one step, so that a motion from rest has a scale at once, and the rounding of u; for
-/// joints the rounding of g = G u, a share of which other elements on the same bodies get.  G changes so little
+/// Lower bounds: the distance moved in one step, so that a motion from rest has a scale at once, and the rounding of u;
+/// for joints the rounding of g = G u, of which other elements on the same bodies receive a share.  G changes so little
 /// that it is evaluated once in several steps.
 void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local, bool of_joints_too)
 {
@@ -232,7 +232,7 @@ double ImplicitStep::remaining(int iteration, double size, double size_before)
   return std::min(size, left);
 }
 
-/// In the first iteration the share of the largest correction holds for all measures.
+/// In the first iteration the share of the largest correction applies to all measures.
 bool ImplicitStep::is_converged(int iteration, double size, double remaining) const
 {
   if (remaining <= options_.tolerance)
@@ -384,7 +384,7 @@ void ImplicitStep::solve(const Condensed &condensed, const MassLoad &load, const
   condensed.solver->solve_following(h, f, x);
 }
 
-/// The forces p in A x = f + W p, where x holds what there is without them.
+/// Computes the forces p in A x = f + W p, where x contains the result without them.
 void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &base, const Eigen::VectorXd &x,
                                LocalState &local, IntegrationWork &work)
 {
@@ -405,7 +405,7 @@ void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &bas
   scale_before_ = scale_;
   if (!iterate(condensed, base, local, work))
   {
-    scale_ = scale_before_; // runaway iterates are no excursions
+    scale_ = scale_before_; // diverged iterates are not excursions
     forget_contraction();
     levers_age_ = 0;
     fail_with_law(system_, local, [&] { fail(base.t); });

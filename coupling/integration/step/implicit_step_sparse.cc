@@ -19,7 +19,7 @@ bool ImplicitStep::factorise_sparse(IntegrationWork &work)
   return false;
 }
 
-/// W^T x, and of measures that stick what their rates make of them.
+/// W^T x; for sticking measures the value from their rates.
 void ImplicitStep::find_measures(const Eigen::VectorXd &x, const StepForm &form, const LocalState &base)
 {
   xi_.noalias() = system_.forces().directions().transpose() * x;
@@ -27,7 +27,7 @@ void ImplicitStep::find_measures(const Eigen::VectorXd &x, const StepForm &form,
     xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
 }
 
-/// Newton's correction y of x, the multipliers and the forces that hold measures, which are linear and taken at once.
+/// Newton's correction y of x, the multipliers and the forces of sticking measures, which are linear.
 bool ImplicitStep::correct_sparse(const StepForm &form, const Eigen::VectorXd &f, const Eigen::VectorXd &x,
                                   LocalState &local)
 {
@@ -64,7 +64,7 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
   saddle_->hold(system_.forces().held());
   saddle_->set_weights(form.w_M, form.w_B, form.w_C, form.force);
   y_.resize(saddle_->size());
-  saddle_->forget_factor(); // that of the step before costs more iterations than it saves
+  saddle_->forget_factor(); // the old one costs more iterations than it saves
 
   find_measures(x, form, base);
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration)

@@ -3,10 +3,10 @@
 namespace gestell::coupling
 {
 
-// Newton's last correction moves what joints hold along directions that it turns itself.  What that leaves is of second
-// order, but the same in every step: as large as rounding in positions it is 1e-8 of forces and, after some hundred
-// steps, of velocities.  And which correction is the last one depends on the axes that bodies are described along.  So
-// forces and joints are looked at once more, and what is open is closed by the factors that are there.
+// Newton's last correction moves constrained points along directions that it rotates itself.  The remaining error is of
+// second order, but the same in every step: as large as rounding in positions it is 1e-8 of forces and, after a few
+// hundred steps, of velocities.  Which correction is the last one depends on the axes of the bodies.  Therefore forces
+// and joints are evaluated once more, and the residual is removed with the existing factors.
 
 /// The forces of elements, but not of what sticks, and of joints, where they are now.
 void ImplicitStep::take_forces(LocalState &local)

@@ -8,28 +8,28 @@
 namespace gestell::coupling
 {
 
-/// An element whose law gives no finite number at a motion, where no step can be made.
+/// An element whose law gives no finite value for a motion, so that no step is possible.
 struct LawWithoutValue
 {
-  std::string element; ///< by its name in the scene; empty: there is none
-  std::string words;   ///< where it has no value or an infinite slope, and the way out
+  std::string element; ///< its name in the scene; empty: there is none
+  std::string words;   ///< where it has no value or an infinite slope, and the remedy
 };
 
 /// The first such element.
-/// @param state  t, u, u', u''; p of measures that stick
+/// @param state  t, u, u', u''; p of sticking measures
 LawWithoutValue law_without_value(const SecondOrderSystem &system, const LocalState &state);
 
-/// No machine gets there, and powers of it overflow: a motion or an iteration that has run away.
+/// Larger values do not occur in machines, and powers of them overflow: a motion or an iteration has diverged.
 constexpr double beyond_machines = 1e100;
 
-/// The same; none where the motion itself has run away.
+/// The same; none if the motion itself has diverged.
 LawWithoutValue law_at_fault(const SecondOrderSystem &system, const LocalState &state);
 /// Kind of failure
 constexpr const char *without_value = "law-without-value";
-/// @throws ConvergenceFailure with them if there are any
+/// @throws ConvergenceFailure with this text if there is such an element
 void require_law_values(const SecondOrderSystem &system, const LocalState &state);
 
-/// Calls what throws a ConvergenceFailure, and adds the words of a law to it.
+/// Calls a function that throws a ConvergenceFailure, and adds the text about a law to it.
 template <class Fail>
 void fail_with_law(const SecondOrderSystem &system, const LocalState &state, const Fail &fail)
 {

@@ -8,7 +8,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// f_t + W p at t, for the measures of the begin.
+/// f_t + W p at t, for the initial measures.
 class Loads
 {
 public:

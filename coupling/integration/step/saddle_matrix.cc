@@ -31,9 +31,9 @@ struct SaddleMatrix::Factor
   Factor()
   {
     klu_defaults(&common);
-    common.btf   = 0;  // one block: a mechanism of several parts is no other case
+    common.btf   = 0;  // one block: a mechanism of several parts needs no special case
     common.scale = -1; // see scale()
-    // of the diagonal, where it is not that much smaller than the column: fill against four digits
+    // least ratio of a diagonal pivot to the largest entry of its column: less fill, at a loss of up to four digits
     constexpr double pivot_preference = 1e-4;
     common.tol                        = pivot_preference;
   }
@@ -124,7 +124,7 @@ int SaddleMatrix::position(int row, int column) const
   return int(std::lower_bound(rows + begin[column], rows + begin[column + 1], row) - rows);
 }
 
-/// Where every number of A, p' and G stands in K.
+/// Finds the position in K of every entry of A, p' and G.
 void SaddleMatrix::analyse()
 {
   const std::vector<Place> base = places_of_base(), tangent = places_of_tangent(), held = places_of_held();
@@ -223,7 +223,7 @@ std::vector<SaddleMatrix::Scattered> SaddleMatrix::scattered(const std::vector<P
   return scattered;
 }
 
-/// Motions, equations, motions of many equations, equations of these alone; within each set few fill-ins.
+/// Order: motions, equations, motions with many equations, equations that involve only these; in each set little fill.
 void SaddleMatrix::order()
 {
   const int       *begin = pattern_.outerIndexPtr(), *rows = pattern_.innerIndexPtr();
@@ -237,7 +237,7 @@ void SaddleMatrix::order()
     set[j] = std::any_of(rows + begin[j], rows + begin[j + 1], [&](int i) { return set[i] == 0; }) ? 1 : 3;
   order_.resize(N);
   double           facts[CAMD_INFO];
-  std::vector<int> sets = set; // consecutive numbers are asked for
+  std::vector<int> sets = set; // consecutive numbers are required
   std::vector<int> used = set;
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -274,7 +274,7 @@ void SaddleMatrix::set_weights(double w_M, double w_B, double w_C, double f)
     return;
   weights_                                                  = weights;
   Eigen::Map<Eigen::VectorXd>(A_.valuePtr(), A_.nonZeros()) = w_M * M_ + w_B * B_ + w_C * C_;
-  if (w_B == 0. && w_C == 0.) // of M alone virtual coordinates have nothing: they stay apart
+  if (w_B == 0. && w_C == 0.) // M alone has no entries for virtual coordinates: they are fixed
     for (const int i : system_.linear().virtual_coordinates())
       A_.coeffRef(i, i) = w_M;
   factorised_ = false;
@@ -304,7 +304,7 @@ void SaddleMatrix::scale()
     for (int k = begin[j]; k < begin[j + 1]; ++k)
       if (rows[k] == j)
         scale_[j] = unit(std::abs(K[k]));
-  for (int j = n_; j < size(); ++j) // column j is minus row j: they meet motions alone
+  for (int j = n_; j < size(); ++j) // column j is minus row j: they involve only motions
   {
     double length = 0.;
     for (int k = begin[j]; k < begin[j + 1]; ++k)

@@ -10,12 +10,12 @@
 namespace gestell::coupling
 {
 
-/// How the equations of ideal joints are solved.
+/// Solution method for the equations of ideal joints.
 enum class JointSolver
 {
-  automatic, ///< by which way has fewer multiplications
-  condensed, ///< to the measures, dense: cheap for a few dozen of them, with their cube beyond
-  sparse     ///< together with the motion, for as much as the joints are many
+  automatic, ///< the one with fewer multiplications
+  condensed, ///< to the measures, dense: cheap for a few dozen of them, cubic cost beyond
+  sparse     ///< together with the motion, linear cost in the number of joints
 };
 
 /**
@@ -25,38 +25,38 @@ enum class JointSolver
  *     K = [     G W^T           0       0  ] ,     A = w_M M + w_B B + w_C C,     p' = dp/dxi,   G = dg/du,
  *         [     W_h^T           0       0  ]
  *
- * [(n + n_c + n_h) x the same].  Its unknowns are the motion x [n], f lambda of the joints [n_c] and f p of the
- * measures that are held [n_h]; W_h are their columns of W.  With f of the order of h^2, multipliers come in units of
- * mass times length and nothing in K scales with the step.
+ * a square matrix of size n + n_c + n_h.  Its unknowns are the motion x [n], f lambda of the joints [n_c] and f p of
+ * the sticking measures [n_h]; W_h are their columns of W.  With f of the order of h^2, multipliers have the unit mass
+ * times length, and K does not scale with the step.
  *
- * Before factorisation K is scaled to unit diagonal of its motions, and so that every equation of a joint has unit
- * length in them: what is rounding is then told by a pivot alone.
+ * Before factorisation K is scaled to unit diagonal of its motions, and every equation of a joint to unit length in
+ * them: a pivot alone then shows whether it is a rounding error.
  *
- * Motions are eliminated before the joints that act on them.  What is left for these is G W^T (A - ...)^-1 W G^T,
- * positive definite as long as inertia and stiffness rule, so that no pivoting is needed and an order chosen once, for
- * few fill-in (CAMD), serves while G turns.  A coordinate on which very many joints act (a frame) would couple all of
- * them, and comes after them.  KLU (Davis & Palamadai Natarajan, ACM TOMS 37(3), 2010): made for matrices of a few
- * numbers per row, without dense kernels and their overhead; klu_refactor() allocates nothing; unsymmetric p', as
- * friction has, is no other case.  A factor with other pivots is made (and memory taken) only where the kept ones fail
- * or a step did.
+ * Motions are eliminated before the joints that act on them.  The Schur complement G W^T (A - ...)^-1 W G^T for the
+ * joints is positive definite as long as inertia and stiffness dominate, so that no pivoting is needed, and one order
+ * with little fill-in (CAMD) remains suitable while G changes.  A coordinate on which very many joints act (a frame)
+ * would couple all of them, and is eliminated after them.  KLU (Davis & Palamadai Natarajan, ACM TOMS 37(3), 2010):
+ * made for matrices of a few numbers per row, without dense kernels and their overhead; klu_refactor() allocates
+ * nothing; an unsymmetric p', as for friction, needs no special case.  A factor with other pivots is computed (and
+ * memory allocated) only if the present ones or a step failed.
  */
 class SaddleMatrix
 {
 public:
-  /// @throws std::invalid_argument if the system hands out no sparse matrices
+  /// @throws std::invalid_argument if the system provides no sparse matrices
   explicit SaddleMatrix(const SecondOrderSystem &system);
   ~SaddleMatrix();
 
-  /// The matrix if joints are to be solved sparse, else null.
+  /// The matrix if joints are solved sparse, else null.
   /// @throws std::invalid_argument if `sparse` is required for a system without sparse matrices
   static std::unique_ptr<SaddleMatrix> for_joints(const SecondOrderSystem &system, JointSolver solver);
 
-  /// Measures that stick; K is analysed again if they change.
+  /// Sets the sticking measures; K is analysed again if they change.
   void hold(const std::vector<HeldMeasure> &held);
-  /// The factor is void where they are others than before.
+  /// Invalidates the factor if they differ from the previous ones.
   void set_weights(double w_M, double w_B, double w_C, double f);
   void forget_factor() { factorised_ = false; }
-  /// The last factorisation no longer guides the pivoting: pivots are searched again, from the heap.
+  /// The next factorisation searches its pivots again, with memory from the heap.
   void forget_pivots();
   bool has_factor() const { return factorised_; }
 
@@ -83,7 +83,7 @@ private:
     double weight;
   };
 
-  /// Where a number is added to K.
+  /// Position in K to which a number is added.
   struct Place
   {
     int    value, row, column;

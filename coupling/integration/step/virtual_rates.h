@@ -9,11 +9,11 @@ namespace gestell::coupling
 {
 
 /**
- * The rates of virtual coordinates x at an instant.  Without mass their rate is no state but follows from theirs,
+ * The rates of lag (massless) coordinates x at an instant.  Their rate is not a state but follows from
  *
  *     b x' + c x = p,
  *
- * and a multistep method that begins with another one takes the difference for an error that no smaller step removes.
+ * A multistep method that starts with another rate sees the difference as an error that no smaller step removes.
  */
 class VirtualRates
 {
@@ -22,7 +22,7 @@ public:
 
   bool none() const { return rows_.empty(); }
 
-  /// Puts x' into v [n] and local.v, for q [n] and the forces local.p at the same instant.
+  /// Writes x' into v [n] and local.v, for q [n] and the forces local.p at the same instant.
   void settle(const Eigen::Ref<const Eigen::VectorXd> &q, Eigen::Ref<Eigen::VectorXd> v, LocalState &local) const;
 
 private:

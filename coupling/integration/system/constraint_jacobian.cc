@@ -19,7 +19,7 @@ ConstraintJacobian::ConstraintJacobian(const std::vector<ConstraintBlock> &block
 
 namespace
 {
-/// Calls work with the number of rows as a constant where it is small: loops over it cost more than what they do.
+/// Calls work with the number of rows as a constant if it is small, because loops cost more than their contents.
 template <class Work>
 void with_rows(int n_rows, const Work &work)
 {

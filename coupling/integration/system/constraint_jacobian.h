@@ -12,7 +12,7 @@ struct ConstraintBlock
 {
   int    first_row, n_rows;
   int    first_measure, n_measures;
-  double size; ///< of the numbers [m, rad] whose difference g is: rounding leaves so much times epsilon
+  double size; ///< of the numbers [m, rad] whose difference is g: its rounding error is this size times epsilon
 };
 
 inline int constraint_rows(const std::vector<ConstraintBlock> &blocks)
@@ -39,10 +39,10 @@ public:
     return {values_.data() + first_[i], blocks_[i].n_rows, blocks_[i].n_measures};
   }
 
-  /// All blocks, column by column, one behind the other.
+  /// All blocks, column by column, one after the other.
   const Eigen::VectorXd &values() const { return values_; }
 
-  /// p = G^T lambda on the measures of joints; all others are left as they are.
+  /// p = G^T lambda on the measures of joints; all others are unchanged.
   void set_forces(const Eigen::VectorXd &lambda, Eigen::VectorXd &p) const;
   /// g += factor G u
   void add_product(double factor, const Eigen::VectorXd &u, Eigen::VectorXd &g) const;

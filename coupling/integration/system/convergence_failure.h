@@ -7,12 +7,12 @@
 namespace gestell::coupling
 {
 
-/// A numerical method failed: where, and by how much.
+/// Failure of a numerical method, with location and residual.
 class ConvergenceFailure : public std::runtime_error
 {
 public:
-  /// @param id     of the kind of failure, as that of a finding; "" where there is no name for it
-  /// @param place  element or joint that it is about; "": the machine as a whole
+  /// @param id     kind of the failure, as for a finding; "" if it has no name
+  /// @param place  element or joint concerned; "": the whole machine
   explicit ConvergenceFailure(const std::string &text, std::string id = "", std::string place = "")
       : std::runtime_error(text), id_(std::move(id)), place_(std::move(place))
   {

@@ -7,9 +7,9 @@
 namespace gestell::coupling
 {
 
-/*
- * Eigen's solvers of dense matrices of any size, compiled once: each costs some seconds where it is compiled.  Names
- * and meaning are Eigen's.
+/**
+ * Eigen's dense solvers for matrices of any size, compiled once because each costs some seconds of compile time.  Names
+ * and meaning are those of Eigen.
  */
 
 enum class WithVectors
@@ -66,12 +66,12 @@ private:
   bool             converged_ = false;
 };
 
-/// The x of least |x| among those with least |A x - b|, by a complete orthogonal decomposition.
+/// The x of least norm among those with least |A x - b|, by a complete orthogonal decomposition.
 class LeastSquaresSolver
 {
 public:
   LeastSquaresSolver();
-  /// @param threshold  of the pivots, relative to the largest, below which they are zero; 0: rounding
+  /// @param threshold  relative to the largest pivot, below which pivots are zero; 0: rounding
   explicit LeastSquaresSolver(const Eigen::MatrixXd &A, double threshold = 0.);
   ~LeastSquaresSolver();
   LeastSquaresSolver(LeastSquaresSolver &&) noexcept;
@@ -96,7 +96,7 @@ private:
 /// x with A x = b, A square and regular, by LU with partial pivoting.
 Eigen::MatrixXd lu_solution(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B);
 
-/// Orthonormal columns that span those of A, or with k more than A has, them and what stands across [n x k].
+/// Orthonormal columns that span those of A; if k exceeds the number of columns of A, also complements [n x k].
 Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd &A, Eigen::Index k);
 
 } // namespace gestell::coupling

@@ -13,8 +13,8 @@ public:
 
   /// Energy [J] stored in the elements.
   virtual double stored(const LocalState &) const { return 0.; }
-  /// Power [W] that drives feed, prescribed motions of joints among them, and power that all other laws take beyond
-  /// what they store; what an integrator does amiss is in neither: ideal joints do no work but that of prescribed
+  /// Power [W] input by drives, including prescribed motions of joints, and power that all other laws take beyond the
+  /// energy they store.  Errors of the integrator are in neither: ideal joints do no work except that of prescribed
   /// motion.
   virtual void power(const LocalState &, const Eigen::VectorXd &, double &input, double &dissipated) const
   {

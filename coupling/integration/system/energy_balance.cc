@@ -9,7 +9,7 @@ namespace gestell::coupling
 
 namespace
 {
-/// Gauss and Legendre, four points on (0, 1).
+/// Gauss-Legendre quadrature, four points on (0, 1).
 constexpr double gauss_points[]  = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
 constexpr double gauss_weights[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
 
@@ -107,7 +107,7 @@ void EnergyBalance::step(const TimeIntegrator &integrator, const PowerRule &rule
   // share of the energy exchanged, for one step: 1e5 of them add up to 1 % at worst
   constexpr double closed      = 1e-7;
   const double     small       = closed * std::max(exchanged, std::abs(stored_ - stored_begin_));
-  constexpr int    most_panels = 4096; // 2^12: a load that still changes the work is no function that can be integrated
+  constexpr int    most_panels = 4096; // 2^12: a load that still changes the work is not an integrable function
   for (int panels = 2; (t_ - t_begin_) * 2. > panels * rule.shortest && panels <= most_panels; panels *= 2)
   {
     if (open() <= small)
@@ -115,9 +115,9 @@ void EnergyBalance::step(const TimeIntegrator &integrator, const PowerRule &rule
     const Power before = work_;
     integrate(integrator, panels);
     const double     change    = std::abs(work_.input - before.input) + std::abs(work_.dissipated - before.dissipated);
-    constexpr double converged = 0.1; // of what is open: what twice as many panels change
+    constexpr double converged = 0.1; // share of the error: change by twice as many panels
     if (change < converged * open())
-      return; // what is open is the method's own
+      return; // the remaining error is that of the method
   }
 }
 

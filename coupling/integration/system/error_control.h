@@ -3,7 +3,7 @@
 namespace gestell::coupling
 {
 
-/// What integrators have besides that can control the error of their steps.
+/// Interface of integrators that can control the error of their steps.
 class ErrorControl
 {
 public:
@@ -12,8 +12,8 @@ public:
   /// False: steps are fixed.
   virtual bool controls_error() const = 0;
 
-  /// Loads to come would lead so far and make so fast a motion, in the norm of the energy, sqrt(sum m_i x_i^2)
-  /// [sqrt(kg) m], [sqrt(kg) m/s]: a motion that is small beside that need not be exact against itself.  Holds up to
+  /// Sets the motion predicted from future loads: distance and speed in the energy norm, sqrt(sum m_i x_i^2) [sqrt(kg)
+  /// m], [sqrt(kg) m/s].  A motion that is small compared with this needs no relative accuracy of its own.  Valid until
   /// the next begin().
   virtual void expect(double way, double speed) = 0;
 };

@@ -68,7 +68,7 @@ void ErrorScale::copy(const Excursions &from, Excursions &to)
     to.*x = from.*x;
 }
 
-/// M_ii: by unit vectors, or for large systems from x_i (M x)_i with many x of random signs, of which the mean is M_ii.
+/// M_ii: by unit vectors, or for large systems from x_i (M x)_i with many x of random signs, whose mean is M_ii.
 void ErrorScale::find_masses()
 {
   const int       n = system_.linear().size();
@@ -87,7 +87,7 @@ void ErrorScale::find_masses()
   else
   {
     std::mt19937  random(1);
-    constexpr int probes = 64; // the estimate of a diagonal by signs errs by 1/8 of the rest of its row
+    constexpr int probes = 64; // the error of an estimate by random signs is 1/8 of the other entries in its row
     for (int k = 0; k < probes; ++k)
     {
       for (int i = 0; i < n; ++i)
@@ -356,7 +356,7 @@ void ErrorScale::set_scales_of_virtual(double h)
   for (const Virtual &z : virtual_)
   {
     const int j = z.measure;
-    // of what the excursions of other measures make of the law of a virtual one
+    // share of the effect of other measures' excursions on the law of a virtual coordinate
     constexpr double law_floor = 1e-3;
     const double     law       = law_floor * (z.by_u.dot(way_) + z.by_rate.dot(speed_));
     const double     way = std::max(way_[j], law), speed = z.time > 0. ? std::max(speed_[j], law / z.time) : speed_[j];

@@ -7,7 +7,7 @@
 namespace gestell::coupling
 {
 
-// What rounding leaves in measures and coordinates: see ErrorScale.
+// Rounding errors in measures and coordinates: see ErrorScale.
 
 namespace
 {
@@ -44,8 +44,8 @@ void ErrorScale::find_noise_of_joints()
   }
 }
 
-/// In a step by a force with dp/du'' a measure moves by  1/m dp/du''  times what the others do, if nothing else moves
-/// it; the norm of dp/du'' is that of any position, as of an unbalance however it has turned.
+/// In a step a force with dp/du'' moves a measure by  1/m dp/du''  times the motion of the others, if nothing else
+/// moves it; the norm of dp/du'' is that of any position, as for an unbalance at any angle.
 void ErrorScale::inertia(const LocalState &at)
 {
   if (system_.joints().n_rows() == 0)
@@ -72,8 +72,8 @@ void ErrorScale::inertia(const LocalState &at)
     spread(noise_, noise_of_groups_);
 }
 
-/// What joints and forces leave of the sizes of their terms in their own measures, from there in the coordinates, and
-/// so in all measures of these.
+/// Rounding errors of joints and forces, from the sizes of their terms, in their own measures, from there in the
+/// coordinates, and then in all measures of these.
 void ErrorScale::find_noise()
 {
   noise_.setZero(ends_.cols());
@@ -88,8 +88,7 @@ void ErrorScale::find_noise()
   spread(noise_, noise_of_groups_);
 }
 
-/// Noise of measures to that of the coordinates they are made of, and of all measures of these; groups: in the energy
-/// norm.
+/// Transfers noise of measures to their coordinates, and to all measures of these; groups: in the energy norm.
 void ErrorScale::spread(Eigen::VectorXd &noise, std::vector<double> &of_groups) const
 {
   Eigen::VectorXd energy = Eigen::VectorXd::Zero(ends_.rows()); // of the coordinates, as its root

@@ -13,25 +13,25 @@ enum class GuardCrossing
   falling
 };
 
-/// A switching function that is active now: whose it is, and which transition its zero means.
+/// A switching (event) function that is active now: its owner, and the transition at its zero.
 struct ActiveGuard
 {
   std::string name; ///< of the element in the scene
   std::string kind; ///< of the transition
 };
 
-/// Branches of the laws: the history that names them, and the zeros of switching functions at which they change.  This
-/// one has none.
+/// Branches of the laws: the history that selects them, and the zeros of event functions at which they change.  By
+/// default there are none.
 class EventSystem
 {
 public:
   virtual ~EventSystem() = default;
 
-  /// True: laws follow the branch their history names, smoothly continued beyond its switching point, as is right where
-  /// events are located.  False: by the motion itself.
+  /// True: laws follow the branch of their history, smoothly continued beyond its switching point, as required if
+  /// events are located.  False: branches follow the motion.
   virtual void follow_history(bool) {}
 
-  // the history changes on start(), accept(), transition() and restore_history() only
+  // the history changes only in start(), accept(), transition() and restore_history()
   virtual Eigen::VectorXd save_history() const { return {}; }
   virtual void            restore_history(const Eigen::VectorXd &) {}
   virtual void            start(const LocalState &) {}

@@ -11,13 +11,13 @@ namespace gestell::coupling
 /**
  * External load  f_t(t) = f_0 + sum_j Re(F_j exp(i omega_j t)) + f_r(t)      [n]
  *
- * Constant and harmonic parts are kept apart from the rest, as integrators that know the base system's modes carry them
- * exactly.  Harmonic loads are sparse: only the coordinates they act on are named.
+ * Constant and harmonic parts are stored separately, because integrators in modes of the base system integrate them
+ * exactly.  Harmonic loads are sparse: only coordinates with a load are listed.
  */
 class Excitation
 {
 public:
-  /// Re(F exp(i omega t)) = cosine cos(omega t) + sine sin(omega t), both by coordinate.
+  /// Re(F exp(i omega t)) = cosine cos(omega t) + sine sin(omega t), by coordinate.
   struct Entry
   {
     int    coordinate;
@@ -32,7 +32,7 @@ public:
   explicit Excitation(int n = 0) : constant_(Eigen::VectorXd::Zero(n)) {}
 
   void add_constant(int coordinate, double value) { constant_[coordinate] += value; }
-  /// cosine cos(omega t) + sine sin(omega t) on a coordinate; harmonics of equal frequency share their evaluation.
+  /// Adds cosine cos(omega t) + sine sin(omega t) on a coordinate; harmonics of equal frequency share their evaluation.
   /// @throws std::invalid_argument if omega is not positive
   void add_harmonic(int coordinate, double omega, double cosine, double sine);
   /// Any other load, added to f; at most one.

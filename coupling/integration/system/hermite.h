@@ -5,7 +5,7 @@
 namespace gestell::coupling
 {
 
-/// Weights with which values (and slopes) at up to three points of time give a value at t.
+/// Interpolation weights at t for values (and slopes) at up to three instants.
 struct InterpolationWeights
 {
   int                   n = 0;

@@ -13,10 +13,10 @@ namespace gestell::coupling
 {
 
 /**
- * Solves  A x = f,  A = w_M M + w_B B + w_C C,  for fixed weights; made by LinearSystem::factorise().
+ * Solves  A x = f,  A = w_M M + w_B B + w_C C,  for fixed weights; created by LinearSystem::factorise().
  *
- * Where A is condensed to a few leading coordinates N, from which all others follow, an implicit step need not solve
- * for the others before the forces on N are known:
+ * If A is condensed to a few leading coordinates N, from which all others follow, an implicit step need not solve for
+ * the others until the forces on N are known:
  *
  *     solve_leading(h, f, x)     x_N of A x = M h + f        (then x_N += Y_N p for forces p on N)
  *     solve_following(h, f, x)   the others, of the same equation, from the final x_N.
@@ -27,7 +27,7 @@ public:
   virtual ~LinearSolver()                                                = default;
   virtual void solve(const Eigen::VectorXd &f, Eigen::VectorXd &x) const = 0;
 
-  /// N; empty: there is no such division, and the other two must not be called.
+  /// N; empty: there are no leading coordinates, and the other two functions must not be called.
   virtual const std::vector<int> &leading() const;
   virtual void solve_leading(const Eigen::VectorXd &h, const Eigen::VectorXd &f, Eigen::VectorXd &x) const;
   virtual void solve_following(const Eigen::VectorXd &h, const Eigen::VectorXd &f, Eigen::VectorXd &x) const;
@@ -40,8 +40,8 @@ struct SpectrumLine
   double zeta;  ///< [1]
 };
 
-/// The linear base system  M q'' + B q' + C q = f_t(t), M, B, C [n x n] constant; it alone knows how its matrices are
-/// stored and solved with: dense, reduced or sparse.
+/// The linear base system  M q'' + B q' + C q = f_t(t), M, B, C [n x n] constant; it hides how its matrices are stored
+/// and solved: dense, reduced or sparse.
 class LinearSystem
 {
 public:
@@ -57,12 +57,12 @@ public:
   virtual const Excitation &excitation() const = 0;
   /// M, B, C as dense matrices [n x n], for integrators that work in the modes of the base system; false: too large.
   virtual bool dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const;
-  /// M, B, C as sparse matrices [n x n] that are cheap to factorise in every step, for systems of many joints;
-  /// false: there are no such, and joints are solved condensed to the measures.
+  /// M, B, C as sparse matrices [n x n] that are cheap to factorise in every step, for systems of many joints; false:
+  /// there are none, and joints are solved condensed to the measures.
   virtual bool sparse_matrices(Eigen::SparseMatrix<double> &M, Eigen::SparseMatrix<double> &B,
                                Eigen::SparseMatrix<double> &C) const;
-  /// Massless coordinates that are states of a law, not motions, such as the torque of a motor with first-order lag;
-  /// nothing of M, B, C couples them to others, factorise(w, 0, 0) holds them apart.  They store no energy.
+  /// Massless coordinates that are states of a law, not motions, such as the torque of a motor with first-order lag.
+  /// M, B, C do not couple them to others; factorise(w, 0, 0) fixes them.  They store no energy.
   virtual const std::vector<int> &virtual_coordinates() const;
   /// Name of coordinate i, for messages.
   virtual std::string coordinate_name(int i) const = 0;

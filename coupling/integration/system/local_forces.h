@@ -20,7 +20,7 @@ struct LocalState
   Eigen::VectorXd lambda;  // [n_c] multipliers of ideal joints, p = G^T lambda on their measures
 
   void resize(const SecondOrderSystem &system); ///< to zero
-  void resize(Eigen::Index n_u);                ///< of a system without ideal joints
+  void resize(Eigen::Index n_u);                ///< for a system without ideal joints
 };
 
 /// A measure that sticks: its rate is u' = rate, and its force p is the unknown.
@@ -34,10 +34,10 @@ struct HeldMeasure
 struct ForceBlock
 {
   int    first_measure, n_measures;
-  double size = 0.; ///< of the numbers [m, rad] whose difference the motion is that the force depends on; 0: of u alone
+  double size = 0.; ///< size of the numbers [m, rad] whose difference determines the force; 0: only u itself
 };
 
-/// Numbers in all blocks of dp/du together.
+/// Total number of entries in all blocks of dp/du.
 Eigen::Index tangent_size(const std::vector<ForceBlock> &blocks);
 
 /// W p, the forces of the elements in their measures u = W^T q: p = p(t, u, u', u'', history), nonlinear and block
@@ -50,24 +50,24 @@ public:
   /// W [n x n_u], constant.
   virtual const Eigen::SparseMatrix<double> &directions() const                                       = 0;
   virtual void                               force(const LocalState &state, Eigen::VectorXd &p) const = 0;
-  /// p [n_u] and  w_u dp/du + w_v dp/dv + w_a dp/da  [n_u x n_u], block diagonal by element.
-  /// Rows of held measures are left as they are.
+  /// p [n_u] and  w_u dp/du + w_v dp/dv + w_a dp/da  [n_u x n_u], block diagonal by element. Rows of sticking measures
+  /// are unchanged.
   virtual void tangent(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                        Eigen::MatrixXd &dp) const = 0;
-  /// p [n_u], dp/du and dp/dv [n_u x n_u], block diagonal by element: only its blocks are written.
+  /// p [n_u], dp/du and dp/dv [n_u x n_u], block diagonal by element: only the blocks are written.
   virtual void derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
                            Eigen::MatrixXd &dp_dv) const = 0;
-  /// The force elements, joints not among them, in the order of tangent_blocks().  Default: one of all measures.
+  /// The force elements, without joints, in the order of tangent_blocks().  Default: one with all measures.
   virtual std::vector<ForceBlock> blocks() const;
-  /// As tangent(), of all the n_u^2 numbers only the blocks of dp, column by column, one behind the other; that of a
-  /// held measure is zero.  Default: from tangent(), from the heap.
+  /// Like tangent(), but only the blocks of dp, column by column, one after the other; that of a sticking measure is
+  /// zero.  The default calls tangent() and allocates.
   virtual void tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                               Eigen::VectorXd &blocks) const;
-  /// Measures that stick in the branches that are active now; changed by Events.
+  /// Sticking measures of the active branches; changed by EventSystem.
   virtual const std::vector<HeldMeasure> &held() const;
-  /// Name in the scene of the element whose measure it is, for messages.  Default: "an element".
+  /// Name in the scene of the element that owns a measure, for messages.  Default: "an element".
   virtual std::string element_of(int) const { return "an element"; }
-  /// Forces depend on the multipliers of joints (friction in them), which follow from the forces: a start iterates.
+  /// Whether forces depend on the multipliers of joints (friction in them), which depend on forces: a start iterates.
   virtual bool need_multipliers() const { return false; }
 };
 

@@ -12,10 +12,10 @@ struct LocalTangents
 };
 
 /**
- * What integrators have besides that carry tangents: derivatives of the motion with respect to k numbers that its start
- * depends on, dq/ds and dq'/ds [n x k], exactly those of the steps that are made, with the matrix of these steps.
+ * Interface of integrators with tangents: derivatives of the motion with respect to k parameters of its start, dq/ds
+ * and dq'/ds [n x k].  They are the exact derivatives of the steps made, with the matrix of these steps.
  *
- * Whoever drives the integrator carries them along:
+ * The driver of the integrator calls:
  *
  *     begin_tangents(dq, dv)     behind TimeIntegrator::begin()
  *     carry_tangents()           behind every step or part of one, before it is accepted
@@ -29,7 +29,7 @@ public:
   virtual void begin_tangents(const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv) = 0;
   virtual void carry_tangents()                                                     = 0;
 
-  /// Forces jump from `before` to those of local(), at a time that depends on the start too: dt [1 x k] (saltation).
+  /// Forces jump from `before` to those of local(), at a time that also depends on the start: dt [1 x k] (saltation).
   ///     dx' = (x'_before - x'_behind) dt
   virtual void jump_tangents(const Eigen::VectorXd &before, const Eigen::RowVectorXd &dt) = 0;
 

@@ -5,15 +5,15 @@ namespace gestell::coupling
 
 class StateArchive;
 
-/// What integrators have besides whose motion can go on in another process.
+/// Interface of integrators whose motion can be continued in another process.
 class Resumable
 {
 public:
   virtual ~Resumable() = default;
 
-  /// All that the steps to come depend on.  Read behind begin() of the same system with the same options, when the
-  /// history of its elements is restored, the motion goes on as that which was written, to the last bit (many joints,
-  /// solved sparse: to rounding).
+  /// The complete state for later steps.  If it is read after begin() of the same system with the same options, and the
+  /// history of its elements is restored, the motion continues exactly as the one that was written (with many joints,
+  /// solved sparse: up to rounding).
   virtual void exchange(StateArchive &archive) = 0;
 };
 

@@ -11,13 +11,13 @@ namespace gestell::coupling
 {
 
 /**
- * The machine as every integrator sees it (5.5.2/1), in five parts:
+ * The machine as seen by every integrator (5.5.2/1), in five parts:
  *
  *     M q'' + B q' + C q = f_t(t) + W p,     u = W^T q,     g(t, u) = 0,     G = dg/du,
  *     p = p(t, u, u', u'', history) of the elements,     p = G^T lambda of the ideal joints.
  *
- * A search for steady states takes linear() and forces() and does not see the rest.  Without joints, events or an
- * account of the energy the parts by default have none.
+ * A search for steady states uses only linear() and forces().  The default parts have no joints, no events and no
+ * energy account.
  */
 class SecondOrderSystem
 {

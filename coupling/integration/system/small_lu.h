@@ -11,8 +11,8 @@
 namespace gestell::coupling
 {
 
-/// LU factors of a few unknowns with partial pivoting; nothing allocates as long as resize() does not grow.  Zeros, as
-/// rows of idle elements have, are skipped.
+/// LU factors of a small matrix with partial pivoting; nothing allocates unless resize() grows.  Zeros, as in rows of
+/// idle elements, are skipped.
 class SmallLu
 {
 public:
@@ -26,19 +26,20 @@ public:
   /// To be filled, then factorised.
   Eigen::MatrixXd &matrix() { return a_; }
 
-  /// False: singular, which is when a pivot is rounding of the row it stands in, and of the products that elimination
-  /// subtracted from it: unknowns of other units, such as states of drives, may make the row as large as they like. Or,
-  /// where nothing sticks and `redundant` rows cannot be, only when it is zero.
+  /// Factorises.  False: singular, because a pivot is within the rounding error of its row and of the products that
+  /// elimination subtracted from it; unknowns of other units, such as states of drives, may make the row arbitrarily
+  /// large. If nothing sticks and `redundant` rows are impossible, only a zero pivot is singular.
   bool factorise(bool redundant = true)
   {
     return with_size([&](const auto n) { return factorise_sized(n, redundant); });
   }
 
-  /// Of the matrix factorised last; negative where rows were interchanged.  For I - S dp above 1/4: its solution goes
-  /// at most some four times as far as the motion, as it may near the pole that a force has that falls with the motion.
+  /// Smallest pivot of the last factorisation; negative if rows were interchanged.  If it is above 1/4 for I - S dp,
+  /// the solution is at most about four times as large as the motion; it can be larger near the pole of a force that
+  /// falls with the motion.
   double least_pivot() const { return least_; }
 
-  /// Where factorise() found the matrix singular: a column that depends on those before it.
+  /// If factorise() found the matrix singular: a column that depends on those before it.
   int failed() const { return failed_; }
 
   template <typename Vector>
@@ -70,7 +71,7 @@ public:
   }
 
 private:
-  /// Calls work with the number of unknowns as a constant where it is small: then the compiler unrolls all loops.
+  /// Calls `work` with the number of unknowns as a constant if it is small, so that the compiler unrolls all loops.
   template <class Work>
   bool with_size(const Work &work) const
   {
@@ -135,7 +136,7 @@ private:
     return true;
   }
 
-  /// Sum of the magnitudes that elimination has subtracted from an entry so far, in any units of rows and columns.
+  /// Sum of the magnitudes that elimination has subtracted from an entry so far, in arbitrary units.
   double terms(int row, int column) const
   {
     double sum = 0.;

@@ -42,19 +42,19 @@ struct ExchangedBeside<T, std::void_t<decltype(exchange(std::declval<StateArchiv
 };
 
 /**
- * The state of a computation as bytes: one list of members writes it and reads it back, so that both cannot differ.
+ * The state of a computation as bytes: one list of members both writes and reads it, so that the two cannot differ.
  *
  *     void exchange(StateArchive &archive) { archive(q_, v_, step_, points_); }
  *
- * Taken are numbers, flags, plain structs of these, texts, Eigen's matrices, vectors and arrays of them, and whatever
- * has a member exchange() or a function exchange(StateArchive &, T &) beside it.  Bytes are those of this processor;
- * whoever keeps them says for which program and which computation they hold.  Sizes that are read are judged against
- * the bytes left before memory is taken for them.
+ * Supported are numbers, flags, plain structs of these, strings, Eigen's matrices, vectors and arrays of them, and
+ * types with a member exchange() or a function exchange(StateArchive &, T &).  Bytes have the format of this processor;
+ * the code that stores them records for which program and which computation they are valid.  Sizes that are read are
+ * checked against the remaining bytes before memory is allocated.
  */
 class StateArchive
 {
 public:
-  StateArchive() = default; ///< to be written
+  StateArchive() = default; ///< for writing
   explicit StateArchive(std::string bytes) : bytes_(std::move(bytes)), reads_(true) {}
 
   bool               reads() const { return reads_; }
@@ -104,7 +104,7 @@ private:
     else
     {
       members.resize(std::min(n, members.size()));
-      for (std::size_t i = 0; i < n; ++i) // grows with what is read, for an entry may take more memory than bytes
+      for (std::size_t i = 0; i < n; ++i) // grows while reading, because an entry may take more memory than bytes
       {
         if (i == members.size())
           members.emplace_back();
@@ -129,7 +129,7 @@ private:
     raw(x.data(), rows * columns * sizeof(typename Matrix::Scalar));
   }
 
-  /// Of this type, and no index of it overflows.
+  /// Whether the scalar type matches and no index of the matrix overflows.
   template <typename Matrix>
   static bool is_shape(std::size_t rows, std::size_t columns)
   {
@@ -160,7 +160,7 @@ private:
     place_ += size;
   }
 
-  std::size_t left() const { return bytes_.size() - place_; } ///< to be read
+  std::size_t left() const { return bytes_.size() - place_; } ///< to read
 
   [[noreturn]] static void fail() { throw std::runtime_error("the stored state ends early"); }
 

@@ -5,19 +5,20 @@
 namespace gestell::coupling
 {
 
-/// What forces have besides that act along directions which turn with the motion: LocalForces::derivatives() holds
-/// these directions, in the forces and in the rates they depend on, which is enough for a step of Newton's method.
+/// Interface of forces that act along directions which rotate with the motion: LocalForces::derivatives() keeps these
+/// directions constant, in the forces and in the rates they depend on, which suffices for a step of Newton's method.
 class TurningForces
 {
 public:
   virtual ~TurningForces() = default;
 
-  /// dp/du [n_u x n_u] += what the derivatives have left out.
+  /// dp/du [n_u x n_u] += the terms neglected by the derivatives.
   virtual void add_turning(const LocalState &state, Eigen::MatrixXd &dp_du) const = 0;
 };
 
-/// p, dp/du and dp/dv as LocalForces::derivatives(), directions not held, so that dp/du need not be symmetric: for
-/// answers that are derivatives themselves, such as vibrations about a motion and multipliers of a periodic one.
+/// p, dp/du and dp/dv like LocalForces::derivatives(), but with rotating directions, so that dp/du need not be
+/// symmetric: for results that are derivatives themselves, such as vibrations about a motion and multipliers of a
+/// periodic solution.
 inline void linearise(const LocalForces &forces, const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
                       Eigen::MatrixXd &dp_dv)
 {

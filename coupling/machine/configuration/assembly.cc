@@ -54,7 +54,7 @@ public:
     rate_.setZero(n_c_);
     bias_.setZero(n_c_);
     machine.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine.size()), local_);
-    machine.events().start(local_); // the laws of driven joints begin here
+    machine.events().start(local_); // initialises the laws of driven joints
   }
 
   InitialState assembled(BehindPlay bodies)
@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  /// Takes compliant joints for ideal ones, or if that leads to no end lets them open.
+  /// Treats compliant joints as ideal, or lets them open if the assembly fails.
   template <class Closing>
   void with_yielding(const Closing &closing)
   {
@@ -82,7 +82,7 @@ private:
     closing();
   }
 
-  /// Given values may tear bodies out of plays in which the scene describes them: these follow, if joints let them.
+  /// Given values may separate bodies that are in contact or within a play in the scene; these follow if joints permit.
   void close_plays()
   {
     const InitialState joined = state_;
@@ -112,7 +112,7 @@ private:
     return torn_.size() > so_far;
   }
 
-  /// Bodies on both sides of a play move together, as far as joints and given speeds let them.
+  /// Makes bodies on both sides of a clearance move together, as far as joints and given speeds allow.
   void turn_plays()
   {
     const auto own = plays(machine_, state_.q, state_.v);
@@ -249,7 +249,7 @@ private:
       }
   }
 
-  /// Bodies begin with the rotation they are given.
+  /// Bodies start with their given rotation.
   void guess_spins()
   {
     for (const Body &body : machine_.model().bodies())
@@ -266,8 +266,8 @@ private:
     }
   }
 
-  /// Returns whether compliant joints are closed too.  Lengths and angles have no common size: how far off a position
-  /// is the way says that would close it to first order, measured by masses.
+  /// Returns whether compliant joints are closed too.  Lengths and angles have no common size: the error of a position
+  /// is the mass-weighted distance that would close it to first order.
   bool close()
   {
     Eigen::VectorXd residual, next;
@@ -304,7 +304,7 @@ private:
     return is_closed(residual, measures_, "m or rad", "positions");
   }
 
-  /// Equations that follow from others leave multipliers undetermined, and so does a position without hold.
+  /// Redundant equations leave multipliers undetermined, as does an unconstrained position.
   void refuse_dependent()
   {
     if (n_c_ == 0)
@@ -333,7 +333,7 @@ private:
     return is_closed(residual, rates_, "m/s or rad/s", "velocities");
   }
 
-  /// Size of the terms of each row of evaluate() [m, rad]: rounding leaves so much of them.
+  /// Size of the terms of each row of evaluate() [m, rad], for their rounding.
   Eigen::VectorXd terms(const std::vector<Demand> &demands) const
   {
     std::vector<double> sizes;
@@ -347,10 +347,11 @@ private:
     for (const PlacedPlay &own : torn_plays())
       sizes.insert(sizes.end(), std::size_t(own.play.n), length);
     Eigen::VectorXd terms = Eigen::Map<const Eigen::VectorXd>(sizes.data(), Eigen::Index(sizes.size()));
-    return terms.unaryExpr([](double size) { return size > 0. ? size : 1.; }); // 0: angles alone
+    return terms.unaryExpr([](double size) { return size > 0. ? size : 1.; }); // 0: only angles
   }
 
-  /// false: compliant joints or plays have to open.  @throws std::invalid_argument if without them others stay open
+  /// Returns false if compliant joints or plays must open.
+  /// @throws std::invalid_argument if other joints stay open without them
   bool is_closed(const Eigen::VectorXd &residual, const std::vector<Demand> &demands, const std::string &unit,
                  const std::string &what) const
   {

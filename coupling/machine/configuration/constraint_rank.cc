@@ -55,7 +55,7 @@ ConstraintRank::ConstraintRank(const Machine &machine, Eigen::MatrixXd rows) : m
       rows_.middleRows(first, n) *= 2.;
     first += n;
   }
-  constexpr double rank_threshold = 1e-10; // of the pivots of unit rows, but for rounding of levers
+  constexpr double rank_threshold = 1e-10; // for pivots of unit rows, up to rounding of levers
   qr_.setThreshold(rank_threshold);
   qr_.compute(rows_.transpose());
   dependent_ = int(rows_.rows() - qr_.rank());

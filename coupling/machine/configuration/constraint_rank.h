@@ -10,15 +10,15 @@
 namespace gestell::coupling
 {
 
-/// Coefficient with which an equation counts as used: those that are have some of order one.
+/// Coefficient above which an equation is part of a dependence; true ones have some coefficients of order one.
 constexpr double used_part = 1e-6;
 
 /**
- * Which equations of the joints follow from others in one position: rank of G W^T by a QR decomposition with pivots,
- * every row scaled to its size.
+ * Redundant joint equations in one position: rank of G W^T by a pivoted QR decomposition, with every row scaled to its
+ * size.
  *
- * Rows that make bodies rigid are taken as independent first: an equation of a joint follows from those of joints and
- * bodies, never the other way round.
+ * Rows that make bodies rigid are taken as independent first: an equation of a joint can depend on those of joints and
+ * bodies, but never the other way round.
  */
 class ConstraintRank
 {
@@ -29,13 +29,13 @@ public:
   static ConstraintRank at(const Machine &machine, double t, const Eigen::VectorXd &q);
 
   bool full() const { return dependent_ == 0; }
-  /// All equations that follow from others, from those of which joints, the bodies they hold, and what can be done.
+  /// Text of all redundant equations: on which joints they depend, the bodies these constrain, and the remedy.
   std::string dependence() const;
-  /// The equation that is nearest to follow from the others, if it is near: a dead position; else empty.
+  /// The equation that is almost redundant, if there is one: a dead position; else empty.
   std::string nearly_dependent() const;
 
 private:
-  std::string              joint_of(int row) const; ///< in quotes; empty where the row makes a body rigid
+  std::string              joint_of(int row) const; ///< quoted; empty if the row makes a body rigid
   std::vector<std::string> bodies_of(int row) const;
 
   const Machine                              &machine_;

@@ -82,7 +82,7 @@ void add_up(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &s
               });
 }
 
-/// Of engaged elements, or those in `open` open.
+/// Matrices of engaged elements, except for those in `open`.
 class Engaged
 {
 public:
@@ -166,7 +166,7 @@ void open_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::Matr
 namespace
 {
 
-/// Stiff or damping within `beside` of u: a cubic spring is neither where it is relaxed.
+/// Whether it has stiffness or damping within `nearby` of u: a cubic spring has neither where it is relaxed.
 bool is_structure(const mechanism::Element &element, const Eigen::VectorXd &u, double nearby)
 {
   const auto      k = u.size();
@@ -177,7 +177,7 @@ bool is_structure(const mechanism::Element &element, const Eigen::VectorXd &u, d
     return !K.isZero(0.) || !D.isZero(0.);
   };
   bool acts = acts_at(u);
-  for (Eigen::Index i = 0; !acts && i < k; ++i) // each alone: two that move together may leave a distance as it is
+  for (Eigen::Index i = 0; !acts && i < k; ++i) // each separately: two together may leave a distance unchanged
     acts = acts_at(u + nearby * Eigen::VectorXd::Unit(k, i)) || acts_at(u - nearby * Eigen::VectorXd::Unit(k, i));
   return acts;
 }
@@ -211,7 +211,7 @@ Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &st
 
 Eigen::MatrixXd joint_jacobian(const Machine &machine, const ConstraintJacobian &G)
 {
-  // Of a unit translation, or of a lever as long as the places of the joint are far, a sum of some such terms.
+  // Relative to a unit translation, or to a lever of the size of the joint's positions: a sum of several such terms.
   constexpr double rounding = 64. * std::numeric_limits<double>::epsilon();
   Eigen::MatrixXd  rows(G.n_rows(), machine.size());
   G.times(Eigen::MatrixXd(machine.forces().directions().transpose()), rows);

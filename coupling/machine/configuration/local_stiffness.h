@@ -6,21 +6,20 @@ namespace gestell::coupling
 {
 
 /// Geometric stiffness [n_u x n_u], block diagonal, of elements and joints at a motion with its forces and multipliers;
-/// of an element with a position function g(u), whose force is P grad g, it is -P g''.
+/// for an element with a position function g(u), whose force is P grad g, it is -P g''.
 Eigen::MatrixXd geometric_of_measures(const Machine &machine, const LocalState &state);
 
-/// The same and the stiffness of the elements engaged at q; of those named in `open` what acts while they are open.
+/// The same plus the stiffness of the elements engaged at q; elements named in `open` contribute their open branch.
 Eigen::MatrixXd stiffness_of_measures(const Machine &machine, const LocalState &state,
                                       const std::vector<std::string> &open);
 
-/// Whether the geometric stiffness is not symmetric: a force follows the motion and has no potential (circulatory
-/// forces).
+/// Whether the geometric stiffness is not symmetric: a follower force has no potential (circulatory forces).
 /// @param acts  [n_u] 0 for the measures of elements that do not act
 bool is_circulatory(const Machine &machine, const LocalState &state, const Eigen::VectorXd &acts);
 
-/// What the elements' part of v^T K v of each motion, a column of V, is the sum of, without signs: |u|^T |K| |u| in the
-/// measures u = W^T v of each element and joint, engaged at q or open, and, with a state, their geometric stiffness.
-/// Rounding leaves so much times epsilon of a sum that is zero.
+/// Sum of the magnitudes of the terms of the elements' part of v^T K v, for each motion v, a column of V: |u|^T |K| |u|
+/// in the measures u = W^T v of each element and joint, engaged at q or open, and, with a state, their geometric
+/// stiffness. This times epsilon is the rounding error of a sum that is zero.
 Eigen::VectorXd stiffness_terms(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
                                 const LocalState *geometric, const Eigen::MatrixXd &V);
 

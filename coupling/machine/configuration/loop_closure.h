@@ -13,10 +13,10 @@ struct Closures
 };
 Closures closures(const Machine &machine, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
 
-/// Least change x [n] of the sliders alone that satisfies J x = b.
+/// Smallest change x [n] of the sliders alone that satisfies J x = b.
 Eigen::VectorXd slider_solution(const Machine &machine, const Eigen::MatrixXd &J, const Eigen::VectorXd &b);
 
-/// q with the sliders moved to where the chains of closed elements just touch, g(q) = 0: a rod without force.
+/// q with the sliders moved until the chains of closed elements just touch, g(q) = 0: a rod without force.
 void close_chains(const Machine &machine, Eigen::VectorXd &q);
 
 } // namespace gestell::coupling

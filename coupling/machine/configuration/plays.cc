@@ -75,8 +75,8 @@ double free_threshold(const Eigen::MatrixXd &P, double whole)
 namespace
 {
 
-/// A motion that the joints allow moves the play while the frame and all coordinates whose speeds are given stand
-/// still.
+/// Whether a motion allowed by the joints moves the clearance while the frame and all coordinates with given speeds are
+/// at rest.
 bool is_free_to_move(const Machine &machine, const std::vector<char> &v_given, const LocalState &state,
                      const Eigen::MatrixXd &play)
 {
@@ -114,7 +114,7 @@ std::vector<std::string> closing_warnings(const Machine &machine, const std::vec
   for (const PlacedPlay &own : plays(machine, q, v))
   {
     const double speed = own.rate().norm();
-    // A journal crosses its play at speeds of gap times the angular speed of what turns; ten times that has another
+    // A journal crosses its clearance at speeds of gap times the angular speed of the shaft; ten times that has another
     // cause.
     constexpr double crossings = 10.;
     if (!own.play.both || !(own.play.gap > 0.) || speed <= crossings * own.play.gap * turning ||

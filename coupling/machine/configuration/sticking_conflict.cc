@@ -17,7 +17,7 @@ namespace
 
 constexpr double dependent = 1e-10; ///< distance of a row of length one from the span of others: their rounding
 
-/// Rows that hold motions, each of length one, and whose they are.
+/// Rows that constrain motions, each of length one, with their owners.
 struct Holding
 {
   Eigen::MatrixXd          rows; ///< [n x number], columns
@@ -30,7 +30,7 @@ struct Holding
     names.push_back(name);
   }
 
-  /// Names of those of which the row is made; empty: it is not.
+  /// Names of the owners of rows that combine to this row; empty: it is independent.
   std::vector<std::string> makers_of(const Eigen::VectorXd &row) const
   {
     std::vector<std::string> makers;

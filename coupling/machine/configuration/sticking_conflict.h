@@ -8,18 +8,18 @@
 namespace gestell::coupling
 {
 
-/// An element that sticks to a motion which others hold already.
+/// An element that sticks to a motion that is already constrained.
 struct StickingConflict
 {
-  std::string element; ///< by its name in the scene; empty: there is no such
-  std::string words;   ///< what it holds, who holds it too, and the way out
+  std::string element; ///< its name in the scene; empty: there is none
+  std::string words;   ///< the motion it constrains, what else constrains it, and the remedy
 };
 
 /**
- * Looks for elements that stick at the start and hold, w . q' = rate, what joints and elements that stick hold already:
- * w is a linear combination of their rows, so that the forces of all of them are not defined.
+ * Finds elements that stick initially and constrain a motion, w. q' = rate, that joints and other sticking elements
+ * already constrain: w is a linear combination of their rows, so that all their forces are undefined.
  *
- * @param machine  its elements start at this motion
+ * @param machine  its elements are initialised for this motion
  */
 StickingConflict sticking_conflict(Machine &machine, const InitialState &initial);
 

@@ -35,7 +35,7 @@ void require(bool holds, const std::string &message)
     throw std::invalid_argument("mesh convergence: " + message);
 }
 
-/// A field whose error is estimated, and the quantity it makes.
+/// A field whose error is estimated, and the quantity computed from it.
 struct Watched
 {
   std::string name, unit;
@@ -45,7 +45,7 @@ struct Watched
   bool        is_frequency;
 };
 
-/// Length that makes rotations comparable with displacements: the reach of the interfaces about their centre [m].
+/// Length that makes rotations comparable with displacements: largest distance of an interface from their centre [m].
 double reach_of(const std::vector<fem::Interface> &interfaces)
 {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -125,7 +125,7 @@ std::vector<Watched> watch_compliances(const ReducedFrame &frame, const fem::Fra
   return result;
 }
 
-/// One mesh from CAD to its reduced frame, with what it says about its own errors.
+/// One mesh with its reduced frame and its error estimate.
 struct Computed
 {
   MeshLevel                             level;
@@ -208,7 +208,7 @@ std::string enough(const ConvergedQuantity &worst, int n_coordinates, double tol
 {
   if (worst.bound() <= tolerance)
     return "";                                                        // but no other mesh to compare with
-  constexpr double least_k = 0.5, usual_k = 1., greatest_k = 4. / 3.; // of error ~ n^-k, to tell how many would do
+  constexpr double least_k = 0.5, usual_k = 1., greatest_k = 4. / 3.; // k of error ~ n^-k, to estimate n
   const double     k = std::isnan(worst.order) ? usual_k : std::clamp(worst.order, least_k, greatest_k);
   const double     n = n_coordinates * std::pow(worst.bound() / tolerance, 1. / k);
   if (!(n < 1e12))
@@ -270,7 +270,7 @@ public:
   Meshes(const fem::FrameSpecification &specification, const ConvergenceOptions &options)
       : specification_(specification), options_(options), first_size_(specification.mesh.size)
   {
-    specification_.mesh.max_cells = options.max_coordinates; // judged by its coordinates
+    specification_.mesh.max_cells = options.max_coordinates; // its size is judged by its coordinates
   }
 
   const fem::FrameSpecification &specification() const { return specification_; }
@@ -287,10 +287,9 @@ public:
   }
 
   /**
-   * A mesh with `growth` times the coordinates of the last one, or as many as are allowed; none where those are hardly
-   * more than the last one had, or gmsh makes no finer mesh, and stopped() says so.
-   *
-   * @param by_itself  a script or the sweeping of plates made the mesh, which know one size alone.
+   * Makes a mesh with `growth` times the coordinates of the last one, or with as many as are allowed. Returns none if
+   * those are hardly more than the last mesh had or gmsh cannot refine further; stopped() then gives the reason.
+   * @param by_itself  a script or the sweeping of plates makes the mesh, with a single size.
    */
   std::optional<fem::Mesh> next(const Computed &last, bool by_itself, double growth, const Progress &progress)
   {
@@ -306,7 +305,7 @@ public:
     {
       fem::Mesh        mesh  = by_itself ? finer_everywhere(last_size, ratio, progress) : finer(last, ratio, progress);
       const double     nodes = fem::number_of_nodes(mesh);
-      const double     n     = n0 * nodes / n_nodes_; // some nodes are held, and have no coordinates
+      const double     n     = n0 * nodes / n_nodes_; // some nodes are fixed and have no coordinates
       const bool       fits  = n <= allowed;
       constexpr double clearly_finer = 1.5; // times the coordinates, at least, of a mesh that is not cut down
       if (fits && n >= (trial > 1 ? distinctly_finer : clearly_finer) * n0)
@@ -314,7 +313,7 @@ public:
         n_nodes_ = nodes;
         return mesh;
       }
-      constexpr int most_trials = 4; // of a size: gmsh makes as many cells as wanted but for some ten per cent
+      constexpr int most_trials = 4; // of one size: gmsh meets the wanted number of cells to some ten per cent
       if (trial == most_trials || (!fits && room < distinctly_finer * n0))
       {
         stopped_ =
@@ -344,7 +343,7 @@ private:
     return fem::make_mesh(specification_, progress, fem::refine(*last.mesh_error, last.eta2, refinement));
   }
 
-  /// Of plates that are swept, or a script that meshes by itself.
+  /// For swept plates, or a script that makes its own mesh.
   fem::Mesh finer_everywhere(double size, double growth, const Progress &progress)
   {
     specification_.mesh.size = size * std::pow(growth, -1. / 3.);

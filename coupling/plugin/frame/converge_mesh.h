@@ -11,14 +11,14 @@ namespace gestell::coupling
  * Refines the mesh of a frame until its lowest elastic frequencies (supported, interface free) and the static
  * compliance of each of its interfaces are within a tolerance.
  *
- * The first mesh is that of the specification.  Each next one has its elements where the errors of the fields watched
- * are (fem::MeshError, fem::refine()).  The limit of each quantity is extrapolated (extrapolate()); refinement ends as
- * soon as the error of the last mesh against it and the uncertainty of the limit together are within the tolerance for
- * all of them, or where a bound of the options is met: then `stopped` tells which, and the statement holds for what was
- * reached.
+ * The first mesh is that of the specification.  Each further mesh is refined where the estimated errors of the fields
+ * are large (fem::MeshError, fem::refine()).  The limit of each quantity is extrapolated (extrapolate()).  Refinement
+ * ends when, for all quantities, the sum of the error of the last mesh and the uncertainty of the limit is within the
+ * tolerance, or when a limit of the options is reached: `stopped` then gives the reason, and the statement refers to
+ * the last mesh.
  *
- * The compliance of an interface is the largest displacement of its node [m] under a unit force [N] of any direction,
- * of a floating frame under forces in balance: the largest eigenvalue of the node's block of S^+, S = C*_11.
+ * The compliance of an interface is the largest displacement of its node [m] under a unit force [N] of any direction
+ * (for a floating frame under balanced forces): the largest eigenvalue of the node's block of S^+, S = C*_11.
  *
  * @throws std::invalid_argument for options out of range, a mesh file (it cannot be refined), wrong input of the frame.
  */

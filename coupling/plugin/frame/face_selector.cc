@@ -17,7 +17,7 @@ using fem::SurfaceSelector;
 using fem::operator+, fem::operator-, fem::operator*;
 using fem::Vector3;
 
-/// To 0.1 um, or of directions to 1e-7: selectors hold within far more.
+/// Rounds to 0.1 um, directions to 1e-7: far below the tolerances of selectors.
 double rounded_off(double x)
 {
   return std::round(x * 1e7) * 1e-7 + 0.;
@@ -66,7 +66,7 @@ std::string toml(const SurfaceSelector &s)
   return words;
 }
 
-/// The surface that the face lies on, through one of its points; nothing of a face of another kind.
+/// Selector of the surface of the face, through one of its points; empty for faces of other kinds.
 SurfaceSelector by_surface(const fem::Face &face, const Vector3 &through)
 {
   SurfaceSelector selector;
@@ -77,7 +77,7 @@ SurfaceSelector by_surface(const fem::Face &face, const Vector3 &through)
   return selector;
 }
 
-/// Half the tolerance wider than the face, so that the box does not stand on the edge of its tolerance.
+/// A box half a tolerance wider than the face, so that the face does not lie at the limit of the tolerance.
 SurfaceSelector::Box box_of(const fem::Face &face, double tolerance)
 {
   SurfaceSelector::Box box;
@@ -89,7 +89,7 @@ SurfaceSelector::Box box_of(const fem::Face &face, double tolerance)
   return box;
 }
 
-/// Where a plane or an axis may be said to pass: at the corners of the face's box, drawn onto it.
+/// Points to describe a plane or an axis: the corners of the face's box, projected onto it.
 std::vector<Vector3> places_of(const fem::Face &face)
 {
   std::vector<Vector3> places;
@@ -104,7 +104,7 @@ std::vector<Vector3> places_of(const fem::Face &face)
   return places;
 }
 
-/// From the plainest to the most particular.
+/// Selectors of the face, from the simplest to the most specific.
 std::vector<SurfaceSelector> candidates(const fem::Face &face, double tolerance)
 {
   std::vector<SurfaceSelector> list;
@@ -134,7 +134,7 @@ std::vector<SurfaceSelector> candidates(const fem::Face &face, double tolerance)
   return list;
 }
 
-/// What it finds; nothing if its number is not the one that it asks for.
+/// Faces that the selector finds; none if their number is not the one that it requires.
 std::vector<int> found_by(const SurfaceSelector &selector, const std::vector<fem::Face> &faces, double diagonal)
 {
   try

@@ -8,17 +8,17 @@
 namespace gestell::coupling
 {
 
-/// Entries of a `[frame.surface.NAME]` that mean one face.
+/// Keys of a `[frame.surface.NAME]` that select one face.
 struct FaceSelector
 {
   std::string      text;   ///< lines such as `plane = { normal = [0, 0, 1], through = [0, 0, 0.9] }`
-  std::vector<int> others; ///< tags of faces that no selector parts from it; `faces` in the text counts them
+  std::vector<int> others; ///< tags of faces that no selector distinguishes from it; `faces` in the text counts them
 };
 
 /**
- * The plainest selector, with numbers rounded as they are written, by which fem::select_faces() finds this face alone:
- * its plane or cylinder; that with its box; that through another of its points; its box; its name; the same within
- * narrower tolerances.
+ * The simplest selector, with numbers rounded as printed, with which fem::select_faces() finds only this face.
+ * Candidates in this order: its plane or cylinder; that with its box; that through another of its points; its box; its
+ * name; the same with narrower tolerances.
  *
  * @param faces     all faces of the model
  * @param diagonal  of the model [m]

@@ -44,8 +44,8 @@ std::string upper(std::string text)
   return text;
 }
 
-/// [m] as the last entity with LENGTH_UNIT says that is not one inside a conversion: `( CONVERSION_BASED_UNIT('INCH',
-/// #5) LENGTH_UNIT() ... )` refers to metres, which stand in an entity of their own.
+/// Unit of length of a STEP file [m]: the last entity with LENGTH_UNIT that is not inside a conversion. `(
+/// CONVERSION_BASED_UNIT('INCH', #5) LENGTH_UNIT() ... )` refers to metres, which have an entity of their own.
 double length_in_step(const std::string &path)
 {
   std::ifstream     in(path, std::ios::binary);
@@ -63,12 +63,12 @@ double length_in_step(const std::string &path)
   return length;
 }
 
-/// The unit of length of a frame's file: that which a STEP file says, of other files the one of the specification, or
-/// the metre.
+/// The unit of length of a frame's file: for STEP files the unit in the file, for other files the unit of the
+/// specification or the metre.
 LengthUnit file_unit(const fem::FrameSpecification &frame)
 {
   double length = frame.unit > 0. ? frame.unit : 1.;
-  if (fem::is_step(frame.cad)) // whose unit the specification's overrides: the length of its millimetre
+  if (fem::is_step(frame.cad)) // a given unit is the length of the file's millimetre
     length = length_in_step(frame.cad) * (frame.unit > 0. ? frame.unit / 1e-3 : 1.);
   for (const auto &[name, value] : names)
     if (std::abs(length - value) < 1e-9 * value)

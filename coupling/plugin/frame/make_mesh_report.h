@@ -7,7 +7,7 @@
 namespace gestell::coupling
 {
 
-/// Meshes the file of a frame and reports the contents of `gestell mesh` tells; masses are those of frame.material.
+/// Meshes the file of a frame and returns the data for `gestell mesh`; masses are those of frame.material.
 MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &progress);
 
 } // namespace gestell::coupling

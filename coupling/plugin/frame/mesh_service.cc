@@ -34,7 +34,7 @@ std::vector<const fem::Face *> faces_of(const fem::InterfaceSpecification &inter
   return faces;
 }
 
-/// Of faces, weighted by area; of an interface at a node, which may have no surface, nothing.
+/// Centroid of faces, weighted by area; none for an interface at a node, which may have no surface.
 std::optional<fem::Vector3> centroid_of(const std::vector<const fem::Face *> &faces)
 {
   fem::Vector3 moment{};

@@ -36,11 +36,11 @@ Modes modes_of(const ReducedModel &reduced)
   return {n_rigid, std::move(ritz), within};
 }
 
-/// By the stresses of the first mode, the last and some between.
+/// Errors of frequencies from the stresses of the first mode, the last one and some between them.
 Eigen::VectorXd by_stresses(const Modes &modes, const ReducedModel &reduced, const fem::MeshError &mesh_error)
 {
   std::vector<int> looked_at;
-  constexpr int    most_modes = 6; // whose stresses are looked at: each costs as much as a static solution
+  constexpr int    most_modes = 6; // modes whose stresses are computed: each costs as much as a static solution
   for (int j = 0, count = std::min(modes.within, most_modes); j < count; ++j)
     looked_at.push_back(modes.n_rigid + (count > 1 ? j * (modes.within - 1) / (count - 1) : 0));
   Eigen::VectorXd share = mesh_error.of_cells(reduced.basis.T * modes.ritz.V(Eigen::all, looked_at)).colwise().sum();
@@ -48,22 +48,22 @@ Eigen::VectorXd by_stresses(const Modes &modes, const ReducedModel &reduced, con
   return share.unaryExpr([](double s) { return fem::relative_frequency_error(s); });
 }
 
-/// By elements of degree three; empty where these cost too much.
+/// Errors of frequencies from elements of degree three; empty if these cost too much.
 Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const fem::FrameMatrices &frame,
                           const fem::MeshError &mesh_error, bool thin_walls)
 {
   const double n         = fem::raised_coordinates(mesh_error.mesh(), double(frame.M.rows())),
                available = fem::available_memory();
-  // Coordinates of degree three up to which a comparison is worth what it costs, two to three and a half times the
-  // reduction (docs/theory/mesh_error.md): some 15 CPU s where stresses do not see how walls bend, and 3 s of bodies,
-  // which they judge well.
+  // Largest numbers of coordinates of degree three for which the comparison is worth two to three and a half times the
+  // cost of the reduction (docs/theory/mesh_error.md): some 15 CPU s for thin walls, whose bending stresses do not
+  // show, and 3 s for bodies, for which stresses suffice.
   constexpr double most_of_walls = 4e5, most_of_bodies = 6e4;
-  constexpr double bytes_per_cell = 1e5; // of the matrices, while they are summed up
+  constexpr double bytes_per_cell = 1e5; // of the matrices, during assembly
   if (n > (thin_walls ? most_of_walls : most_of_bodies) ||
       2. * bytes_per_cell * mesh_error.mesh().n_cells() > available)
     return {};
   constexpr int most_raised = 24; // modes that are compared with degree three
-  constexpr int guard_modes = 4;  // beyond them, which keep the last ones of a projection good
+  constexpr int guard_modes = 4;  // further modes, which keep the last compared ones accurate
   const int     count       = std::min(modes.within, most_raised),
             taken           = std::min<int>(count + guard_modes, int(modes.ritz.omega.size()) - modes.n_rigid);
   const Eigen::MatrixXd X   = reduced.basis.T * modes.ritz.V.middleCols(modes.n_rigid, taken);
@@ -134,7 +134,7 @@ MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatric
               rounded(1000. * walls.thinnest, 3) + " mm)" +
               (raised ? "" : ", whose bending error the stresses do not show");
     constexpr double coarse = 0.02; // error from which it is a warning, with a way out
-    // elements over thickness, above which stresses miss much of what bending errs
+    // element size over thickness above which stresses miss much of the error in bending
     constexpr double long_beside_wall = 2.;
     warns = !(high < coarse) || (!raised && thin_walls && walls.median_ratio > long_beside_wall);
     if (warns)

@@ -9,20 +9,20 @@
 namespace gestell::coupling
 {
 
-/// Relative errors that the mesh leaves in elastic frequencies of a reduced frame, as estimated.
+/// Estimated relative mesh errors of the elastic frequencies of a reduced frame.
 struct MeshErrorEstimate
 {
-  Eigen::VectorXd error;           // [k] of modes up to highest_hz, or of some of them, the first and the last included
-  double          highest_hz = 0.; ///< the frequency limit, or that of the last mode looked at
-  bool            raised     = false; ///< by elements of degree three; else by stresses
+  Eigen::VectorXd error;              // [k] of modes up to highest_hz, or of some of them, with the first and the last
+  double          highest_hz = 0.;    ///< the frequency limit, or the highest mode evaluated
+  bool            raised     = false; ///< from elements of degree three; else from stresses
 };
 
 /**
- * By elements of degree three on the same mesh, where these cost no more than the reduction; else by the stresses of at
- * most six modes, which miss much of the error where walls are thinner than the elements: docs/theory/mesh_error.md.
+ * Uses elements of degree three on the same mesh if these cost no more than the reduction; else the stresses of at most
+ * six modes, which miss much of the error if walls are thinner than the elements: docs/theory/mesh_error.md.
  *
- * @param frame       that was reduced
- * @param thin_walls  whether such walls are no small part of it
+ * @param frame       the frame that was reduced
+ * @param thin_walls  whether such walls are a significant part of it
  */
 MeshErrorEstimate modal_mesh_error(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                                    const fem::MeshError &mesh_error, bool thin_walls);
@@ -34,9 +34,9 @@ struct MeshStatement
 };
 
 /**
- * What a user should know about the mesh: "mesh: 21 000 coordinates; judged by elements of degree three, frequencies
- * up to 80 Hz are 1 % to 12 % too high ...", and where walls are thinner than the elements, how thin.  Errors below 2 %
- * are no reason to warn unless they are known from below alone.
+ * Information for the user about the mesh: "mesh: 21 000 coordinates; judged by elements of degree three, frequencies
+ * up to 80 Hz are 1 % to 12 % too high ...", and if walls are thinner than the elements, their thickness.  Errors below
+ * 2 % cause no warning unless they are only lower bounds.
  */
 MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                              const fem::MeshError &mesh_error, const fem::Mesh &mesh);

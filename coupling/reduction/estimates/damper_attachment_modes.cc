@@ -28,14 +28,14 @@ enum Kind
   in_B
 };
 
-/// Of columns that take turns, those of a kind that belong to `count` columns of T from `first` on.
+/// Indices of the interleaved columns of one kind that belong to `count` columns of T from `first` on.
 auto of(Kind kind, Index first, Index count)
 {
   return Eigen::seqN(3 * first + Index(kind), count, Eigen::fix<3>);
 }
 
-/// The model T = (Psi, V, W) and the Gramian of the forces it may leave unbalanced, F = (C T2, M T, B T)_2 by columns
-/// that take turns; T2 = (0, V, W), for Psi is in balance.
+/// The model T = (Psi, V, W) and the Gramian of its residual forces F = (C T2, M T, B T)_2 in interleaved columns; T2 =
+/// (0, V, W), because Psi is in equilibrium.
 class DampedModel
 {
 public:
@@ -48,7 +48,8 @@ public:
     scale_ = M_.diagonal().head(n1_).unaryExpr([](double x) { return x > 0. ? 1. / std::sqrt(x) : 1.; });
   }
 
-  /// Shapes zero on q1; takes what is new of them and has mass, and tells how many those are.
+  /// Appends the part of shapes (zero on q1) that is new and has mass.
+  /// @return the number of shapes appended
   Index append(MatrixXd W)
   {
     const auto mass = [&] { return MatrixXd(W.transpose() * symmetric_product(frame_.M, W)); };
@@ -61,7 +62,7 @@ public:
       W -= W_ * (W_.transpose() * MW);
     }
     const SymmetricEigenSolver left(mass());
-    constexpr double           rounding = 1e-12; // of the mass of a shape, beside what it was made from
+    constexpr double           rounding = 1e-12; // of the mass of a shape before projection
     const Index                kept     = (left.eigenvalues().array() > rounding).count();
     W_.conservativeResize(Eigen::NoChange, W_.cols() + kept);
     W_.rightCols(kept) =
@@ -115,7 +116,7 @@ public:
     parts << forced.real(), forced.imag();
     const SymmetricEigenSolver energy(parts.transpose() * G_ * parts);
     constexpr double           share = 0.5; // of the tolerance, left to directions that get no shape
-    Index                      kept  = 1;   // |H r^T C22^-1 r H| is no more than the trace
+    Index                      kept  = 1;   // the trace bounds |H r^T C22^-1 r H|
     while (kept < 2 * n1_ && energy.eigenvalues().head(2 * n1_ - kept).sum() > share * tolerance * answer.H.norm())
       ++kept;
     const MatrixXd a = parts * energy.eigenvectors().rightCols(std::min(kept, most));

@@ -43,7 +43,7 @@ Fractions gauss(const MatrixXd &A, const MatrixXd &B, double highest, double neg
 std::vector<ReceptanceFrequency> receptance_frequencies(const RefinedModes &refined, const fem::ModalRatios &zeta,
                                                         double highest)
 {
-  constexpr double nominal_zeta = 0.01; // of frames without damping: that of welded steel
+  constexpr double nominal_zeta = 0.01; // of frames without damping, as of welded steel
   const auto       ratio        = [&](int mode, double omega)
   { return zeta.any() ? std::max(1e-4, zeta.at(mode, omega)) : nominal_zeta; };
   std::vector<ReceptanceFrequency> result;
@@ -111,10 +111,10 @@ MatrixXd InterfaceReceptance::moment(int k, int m) const
   return moments_[k - 1] - G * omega0_.head(m).array().pow(-2 * k).matrix().asDiagonal() * G.transpose();
 }
 
-/// What is rounding in P_k.
+/// Rounding of P_k.
 double InterfaceReceptance::negligible(int k) const
 {
-  constexpr double least_moment = 1e-12; // of a moment, beside that of all modes: rounding of their sum
+  constexpr double least_moment = 1e-12; // of a moment, relative to that of all modes: rounding of their sum
   return least_moment * moments_[k - 1].trace();
 }
 
@@ -124,7 +124,7 @@ Fractions InterfaceReceptance::of_modes(int m) const
   return {G_.leftCols(m) * inverse.asDiagonal(), inverse.cwiseAbs2()};
 }
 
-/// Of X less its modes:  W^T C W = P_1 = (M W)^T Psi,  W^T M W = P_2.
+/// Partial fractions of the shapes X without their modes: W^T C W = P_1 = (M W)^T Psi,  W^T M W = P_2.
 Fractions InterfaceReceptance::of_shapes(int m) const
 {
   return gauss(moment(1, m), moment(2, m), m > 0 ? 1. / (omega0_(m - 1) * omega0_(m - 1)) : INFINITY, negligible(1));
@@ -143,7 +143,7 @@ Fractions InterfaceReceptance::of_model(int m, Inside inside) const
   return {std::move(F), std::move(nu)};
 }
 
-/// H where the inside makes D = C*_11 - s M*_11 - s^2 R, scaled.
+/// Receptance H for an internal part with dynamic stiffness D = C*_11 - s M*_11 - s^2 R, scaled.
 MatrixXcd InterfaceReceptance::receptance(Complex s, const MatrixXcd &R) const
 {
   return (C11_.cast<Complex>() - s * M11_.cast<Complex>() - s * s * R).partialPivLu().inverse();
@@ -189,7 +189,7 @@ std::vector<double> InterfaceReceptance::errors_of(const Groups &groups, int m, 
 
 InsideCount InterfaceReceptance::fewest(double tolerance, Inside inside) const
 {
-  std::size_t worst = 0; // where the last number failed the next one will, too
+  std::size_t worst = 0; // where the last number failed, the next one probably fails too
   for (int m = 0; m <= omega0_.size(); ++m)
   {
     const Fractions model = of_model(m, inside);

@@ -60,7 +60,7 @@ int smallest_number(const ReducedMatrices &star, int n1, const RefinedModes &ref
   return high;
 }
 
-/// Whether the modes in the basis hold those that are needed, and how many these are.
+/// Whether the basis contains enough modes, and how many are needed.
 struct Judgement
 {
   bool        good = false;
@@ -77,7 +77,7 @@ Judgement judge_frequencies(const ReductionBasis &basis, const ReducedMatrices &
   return {true, {smallest_number(star, basis.n1(), refined, tolerance, limit)}, "a frequency that may be missing"};
 }
 
-/// @param more there are than the m known: modes alone may yet be fewer than with shapes.
+/// @param more  whether there are more modes than the m known ones: modes alone may then be fewer than with shapes.
 Judgement judge_receptance(const InterfaceReceptance &receptance, int m, bool more, double tolerance)
 {
   Judgement    judgement;
@@ -149,7 +149,7 @@ std::string receptance_statement(const InterfaceReceptance &receptance, const Re
 namespace
 {
 
-/// Number of coordinates inside that have mass, if M is not negative: there are no more modes.
+/// Number of internal coordinates with mass; if M is not negative, an upper bound of the number of modes.
 int with_mass(const fem::FrameMatrices &frame, const std::vector<int> &q1)
 {
   Eigen::VectorXd mass = frame.M.diagonal();
@@ -164,13 +164,13 @@ MatrixXd side_by_side(const MatrixXd &A, const MatrixXd &B)
   return both;
 }
 
-/// What the modes in the basis tell of the frame, and whether they do.
+/// The estimate with the modes in the basis, and whether it is sufficient.
 struct Look
 {
   RefinedModes                       refined;
   double                             within  = 0.; // [rad/s] highest frequency of interest
   double                             highest = 0.; // [rad/s] below it all fixed-interface modes are known
-  std::optional<InterfaceReceptance> receptance{}; // where the choice rests on it
+  std::optional<InterfaceReceptance> receptance{}; // if the choice depends on it
   Judgement                          judgement{};
 
   bool good() const { return judgement.good && highest >= reach_of_basis * within; }
@@ -181,7 +181,7 @@ bool by_receptance(const ReductionBasis &basis, const ReductionOptions &options)
   return options.frequency > 0. && basis.n1() > 0;
 }
 
-/// @param n_modes  there are; those in the basis are all that may be asked for if `last`.
+/// @param n_modes  number of modes of the frame; those in the basis are all that can be computed if `last`.
 Look look_at(const ReductionBasis &basis, int n_modes, bool last, const InterfaceStatics &statics,
              const fem::FrameMatrices &frame, const ReductionOptions &options)
 {

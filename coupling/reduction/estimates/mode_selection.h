@@ -19,35 +19,36 @@ double highest_of_interest(const ReductionOptions &options, const RefinedModes &
 
 /// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", the worst
 /// single interface, and the number of modes of the book's rule (up to 3.5 times the highest frequency).
-/// @param dampers inside the frame, if any, with known effect.
+/// @param dampers  internal dampers of the frame, if any, with known effect.
 std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
                                  const std::vector<fem::Interface> &interfaces, const InsideCount &inside,
                                  double frequency_hz, const DamperAttachmentModes *dampers = nullptr);
 
-/// What select_modes() found.
+/// Result of select_modes().
 struct ModeSelection
 {
-  RefinedModes             refined;     // the choice rests on them
+  RefinedModes             refined;     // on which the choice is based
   Eigen::MatrixXd          shapes{};    // [n x k] to be appended to the modes, if any
-  std::string              statement{}; // within which error the receptance is, where that is what was asked
-  std::vector<std::string> notes{};     // what the modes leave
+  std::string              statement{}; // error of the receptance, if it was the criterion
+  std::vector<std::string> notes{};     // errors that remain
 };
 
 /**
  * Reduces the basis to the smallest sufficient number m of modes.
  *
- * With options.frequency given: the receptance of the interface up to it is within options.tolerance of the full
- * frame's (InterfaceReceptance), by modes alone, or by fewer modes and the shapes X = C22^-1 (M Psi)_2 where these
- * are fewer together; where dampers act inside the frame their static shapes join them (damper_attachment_modes()).
- * Without, or without an interface: the twelve lowest elastic frequencies of the supported frame are, by modes.
+ * With options.frequency: the receptance of the interface up to this frequency is within options.tolerance of that of
+ * the full frame (InterfaceReceptance), with modes alone, or with fewer modes and the shapes X = C22^-1 (M Psi)_2 if
+ * these are fewer in total; static shapes of internal dampers are added (damper_attachment_modes()).  Without a
+ * frequency or an interface: the twelve lowest elastic frequencies of the supported frame are within the tolerance,
+ * with modes.
  *
  * The basis grows by half of its modes at a time until its estimate is within the tolerance and its highest
- * fixed-interface mode is 1.5 times above the limit, so that no mode is missing and the rest is well bounded. The
- * smallest m is then chosen among these modes. Growth stops at 200 modes, for frequencies at the book's rule (modes up
- * to 3.5 times the highest); a note then gives the error reached.
+ * fixed-interface mode is 1.5 times above the limit, so that no mode is missing and the remainder has a tight bound.
+ * The smallest m is then chosen among these modes.  Growth stops at 200 modes, for frequencies at the rule of the book
+ * (modes up to 3.5 times the highest); a note then gives the error.
  *
- * @param basis    with its constraint modes.
- * @param statics  its factor is released in the end.
+ * @param basis    contains its constraint modes.
+ * @param statics  its factor is released at the end.
  */
 ModeSelection select_modes(ReductionBasis &basis, FixedInterfaceModes &fixed, const InterfaceStatics &statics,
                            const fem::FrameMatrices &frame, const ReductionOptions &options);

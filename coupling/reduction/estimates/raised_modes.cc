@@ -37,7 +37,7 @@ Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd
     Y.row(frame.place[i]) = X.row(i);
   Y                       = symmetric_product(frame.M, Y);
   const Eigen::MatrixXd F = Y;
-  // Of the lowest omega^2, added where rigid motions are free: far from it, and far above rounding.
+  // Shift, as a share of the lowest omega^2, if rigid motions are free: well below the mode and far above rounding.
   constexpr double shift_share = 0.1;
   const double     s           = floats ? shift_share * omega[0] * omega[0] : 0.;
   if (floats)
@@ -53,8 +53,8 @@ Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd
 
 double error_by_raising(double omega, double raised)
 {
-  // Elements of degree three leave nothing of the error of quadratic ones in smooth fields, and 4/9 at an edge with a
-  // singularity of the root.  The factor is that of 1/5 left.
+  // In smooth fields elements of degree three have none of the error of quadratic elements, at an edge with a
+  // square-root singularity 4/9 of it. The factor assumes that 1/5 remains.
   constexpr double left_over = 1.25;
   return left_over * std::max(0., omega / raised - 1.);
 }

@@ -13,11 +13,11 @@ namespace gestell::coupling
  *
  *     (C3 + s M3) Y = M3 X,     (Y^T C3 Y) g = omega^2 (Y^T M3 Y) g.
  *
- * As the functions of degree three hold the quadratic ones, the j-th lies below that of the quadratic mesh, and like it
- * above that of the continuum.
+ * Because the functions of degree three include the quadratic ones, the j-th frequency is below that of the quadratic
+ * mesh, and like it above that of the continuum.
  *
  * @param omega      of the modes X, ascending
- * @param floats     whether rigid motions are free, which the modes are M-orthogonal to
+ * @param floats     whether there are rigid-body modes, to which the modes are M-orthogonal
  * @param available  memory for the factor [byte]
  * @throws NotEnoughMemory, NotPositiveDefinite
  *

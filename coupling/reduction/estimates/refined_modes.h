@@ -23,15 +23,15 @@ namespace gestell::coupling
  * For T Phi* = Psi a + V b this is Y = X a + V diag(1 / omega0^2) b + Psi c with X of ResidualFlexibility: only the 2
  * n1 + m columns of [T, X] are needed, without matrices or solutions of the size of the frame.
  *
- * If the frame floats, S has its rigid motions as null space (motions_without_stiffness()); they are exact in the
- * reduced model and left out here.
+ * If the frame floats, S has its rigid-body modes as null space (motions_without_stiffness()); they are exact in the
+ * reduced model and omitted here.
  */
 struct RefinedModes
 {
   int             n_rigid = 0;
   Eigen::VectorXd omega;   // [p] elastic modes, refined, ascending [rad/s]
-  Eigen::MatrixXd P;       // [(n1 + m) x p]  T^T M Phi: the refined modes as the reduced model meets them
-  Eigen::MatrixXd rigid{}; // [n1 x n_rigid] the rigid motions on q1; none where they are known by number only
+  Eigen::MatrixXd P;       // [(n1 + m) x p]  T^T M Phi: projection of the refined modes to the reduced model
+  Eigen::MatrixXd rigid{}; // [n1 x n_rigid] rigid-body modes on q1; none if only their number is known
 };
 
 RefinedModes refined_modes(const ReductionBasis &basis, const ReducedMatrices &star,
@@ -45,8 +45,8 @@ RefinedModes ritz_modes(const ReducedMatrices &star, int n_rigid);
 /// ones.
 struct FrequencyEstimate
 {
-  Eigen::VectorXd omega; // [n1 + m] of the reduced model, rigid motions first (0)
-  Eigen::VectorXd error; // (omega - refined) / refined, >= 0; NaN where nothing is refined
+  Eigen::VectorXd omega; // [n1 + m] of the reduced model, rigid-body modes first (0)
+  Eigen::VectorXd error; // (omega - refined) / refined, >= 0; NaN if nothing is refined
 };
 FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const RefinedModes &refined);
 

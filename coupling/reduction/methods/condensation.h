@@ -6,8 +6,8 @@ namespace gestell::coupling
 {
 
 /**
- * All DOFs retained, T = E, under two names: a machine uses the matrices unchanged, dense if small, else sparse.  Then
- * each step is condensed to the coordinates that forces of the mechanism act on,
+ * All DOFs retained, T = E, with two names: a machine uses the matrices unchanged, dense if small, else sparse.  Then
+ * each step is condensed to the coordinates with forces of the mechanism,
  *
  *     A_LL q_L = b_L - A_LN q_N,     (A_NN - A_NL A_LL^-1 A_LN) q_N = b_N - A_NL A_LL^-1 b_L,     A = M + h B + h^2 C,
  *

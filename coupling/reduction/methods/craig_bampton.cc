@@ -19,7 +19,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Of modes that end below the highest frequency of interest.
+/// Warns of modes that end below the highest frequency of interest.
 void warn_of_few_modes(ReductionSpace &space, const ReductionOptions &options)
 {
   const int    m       = space.basis.m();
@@ -37,8 +37,8 @@ void warn_of_few_modes(ReductionSpace &space, const ReductionOptions &options)
       "remove reduction.modes, so that the tolerance determines their number");
 }
 
-/// [rad/s] up to which a number of modes that was given keeps all frequencies within the tolerance; half of the first
-/// where it keeps none.  What it says is a warning then, a statement else.
+/// Highest frequency [rad/s] up to which a given number of modes keeps all frequencies within the tolerance, or half of
+/// the first frequency if there is none. Adds a statement, or in the second case a warning.
 double limit_of_few_modes(ReductionSpace &space, const ReductionOptions &options)
 {
   const int    m        = space.basis.m();
@@ -89,7 +89,7 @@ void state_receptance(ReductionSpace &space, const InterfaceStatics &statics, co
     space.statements.push_back(statement);
 }
 
-/// With as many modes as the tolerance asks for.
+/// The model with as many modes as the tolerance requires.
 ReductionSpace chosen(FixedInterfaceModes &fixed, InterfaceStatics &statics, const fem::FrameMatrices &frame,
                       const ReductionOptions &options)
 {

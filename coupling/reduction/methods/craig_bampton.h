@@ -6,13 +6,13 @@ namespace gestell::coupling
 {
 
 /**
- * Fixed-interface reduction of a linear frame (Craig-Bampton, after Kaltofen 5.5.3/14-23).
+ * Fixed-interface reduction of a linear frame (Craig-Bampton; Kaltofen, 5.5.3/14-23).
  *
  *     q = [ q1 ]  =  T p,     T = [     E          0  ]
  *         [ q2 ]                  [ -C22^-1 C21   V22 ]
  *
- * q1, the coordinates of all interfaces, stays physical, so mechanisms attach to it unchanged; deflection under static
- * interface loads is exact for any number of modes.  One Cholesky factor of C22 serves all steps.
+ * q1, the coordinates of all interfaces, remains physical, so that mechanisms can be attached to it directly; the
+ * deflection under static interface loads is exact for any number of modes.  One factor of C22 is used.
  *
  * Automatic number of modes (options.n_modes < 0): see select_modes().  Completeness is verified by inertia, see
  * SturmCheckedModes.

@@ -36,7 +36,7 @@ Reach reach_of(const ReductionSpace &space, double tolerance)
   return reach;
 }
 
-/// Whether the model holds up to its limit: the error of its frequencies, and modes of the inside that it lacks.
+/// States whether the model is valid up to its limit: error of its frequencies, and number of missing internal modes.
 void judge(ReductionSpace &space, const FixedInterfaceFrame &held, const Reach &reach, double tolerance)
 {
   const int         missing = space.limit > 0. ? held.below(space.limit).negative : 0;

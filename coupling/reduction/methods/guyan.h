@@ -13,7 +13,7 @@ namespace gestell::coupling
  *
  * Statics under loads on the interface are exact, internal inertia follows the static shapes; frequencies are upper
  * bounds. Fixed-interface modes are omitted, and counted by inertia up to the frequency of interest. With
- * options.frequency = 0 the model is valid as far as the estimated error of its frequencies is within
+ * options.frequency = 0 the limit of validity is the highest frequency with an estimated error within
  * options.tolerance.
  *
  * Source: Guyan, AIAA Journal 3(2), 1965, 380; docs/theory/reduction.md (22).

@@ -6,11 +6,11 @@ namespace gestell::coupling
 {
 
 /**
- * Modes of frame and mechanism together in place of all their coordinates,
+ * Modes of the whole machine, frame and mechanism, in place of all coordinates,
  *
  *     p'' + 2 delta p' + omega^2 p = V^T (f_t + f_nl(V p, V p', V p'')),     q = V p,
  *
- * chosen by superpose() when the machine is there: a reduced frame is not made.
+ * chosen by superpose() when the machine has been built: there is no reduced frame.
  *
  * Source: (5.5.3/8 to 13); docs/theory/reduction.md.
  */

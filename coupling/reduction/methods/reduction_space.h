@@ -20,12 +20,12 @@ namespace gestell::coupling
 struct ReductionSpace
 {
   ReductionBasis  basis;        ///< constraint modes, and fixed-interface modes or none
-  Eigen::MatrixXd attachment{}; ///< shapes [n x k], zero on q1, to join them: append_attachment_modes()
-  ReducedMatrices star{};       ///< of `basis` alone, where the method has made them
+  Eigen::MatrixXd attachment{}; ///< shapes [n x k], zero on q1, to be appended: append_attachment_modes()
+  ReducedMatrices star{};       ///< of `basis` alone, if the method has computed them
 
-  RefinedModes                   refined{};        ///< better than the model has them; n_rigid at least
-  std::optional<Eigen::VectorXd> exact{};          ///< in place of it frequencies that the model has exactly [rad/s]
-  double                         limit = INFINITY; ///< [rad/s] up to which the model should be valid
+  RefinedModes                   refined{};        ///< more accurate than those of the model; at least n_rigid
+  std::optional<Eigen::VectorXd> exact{};          ///< in place of `refined`: exact frequencies of the model [rad/s]
+  double                         limit = INFINITY; ///< [rad/s] limit of validity of the model
 
   std::vector<std::string> statements{}, notes{};
 };

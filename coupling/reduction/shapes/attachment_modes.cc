@@ -29,7 +29,7 @@ int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &fra
     W -= basis.fixed_modes() * (M_modes.transpose() * W);
 
   const SymmetricEigenSolver mass(W.transpose() * symmetric_product(frame.M, W));
-  // size of a shape beside what it was made from: its square is rounding of the mass
+  // relative size of a shape after projection: its square is rounding of the mass
   constexpr double rounding = 1e-6;
   const auto       dropped  = (mass.eigenvalues().array() <= rounding * rounding).count();
   const auto       kept     = W.cols() - dropped;

@@ -24,9 +24,9 @@ int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &fra
  *
  *     w_i = (0; C22^-1 (M R)_2 e_i),     R = rigid motions (6) or translations (3) of the frame.
  *
- * With them the statics of an accelerating floating frame (and of any frame under weight) are exact for any number of
- * modes: loads f on q1 in balance with the inertia of a rigid motion R alpha deflect the inside by Psi q1 - C22^-1 (M
- * R)_2 alpha.
+ * With them the statics of an accelerated floating frame (and of any frame under weight) are exact for any number of
+ * modes: loads f on q1 in balance with the inertia of a rigid-body motion R alpha cause the internal deflection Psi q1
+ * - C22^-1 (M R)_2 alpha.
  *
  * @return shapes [n x 6 or 3 or 0], zero on q1.
  */

@@ -52,7 +52,7 @@ MatrixXd energy_free_motions(const SparseMatrix &lower, const VectorXd &D)
       X(i, j) = std::fmod(0.6180339887498949 * (i + 1.) * (j + 1.) * (j + 1.), 1.) - 0.5;
 
   VectorXd      quotient;
-  constexpr int rounds = 6; // of inverse iteration: free motions gain a factor of about 100 in each
+  constexpr int rounds = 6; // of inverse iteration: free motions grow by about 100 in each
   for (int round = 0; round < rounds; ++round)
   {
     X = D.asDiagonal() * X;
@@ -70,7 +70,7 @@ MatrixXd energy_free_motions(const SparseMatrix &lower, const VectorXd &D)
   return X.leftCols(n_free);
 }
 
-/// Where a free motion is greatest: a coordinate and, where pictures tell it, a point.
+/// The coordinate at which a free motion is largest and, if the frame has a picture, the point.
 std::string place_of(const fem::FrameMatrices &frame, const VectorXd &x)
 {
   int coordinate;
@@ -102,14 +102,14 @@ std::string join(const std::vector<std::string> &words)
 }
 
 /**
- * Throws std::invalid_argument naming in words the motions that C does not resist ("translation along x", see
- * fem::free_motions(), or where the frame does not know its rigid motions the coordinate that moves most); returns if
+ * Throws std::invalid_argument with the motions that C does not resist: in words ("translation along x", see
+ * fem::free_motions()), or by the coordinate that moves most if the rigid motions of the frame are unknown. Returns if
  * there are none.
  *
- * A motion x counts as free if  x^T C x < 1e-13 x^T diag(C) x:  rounding of the assembly leaves about 1e-16, a machine
+ * A motion x counts as free if  x^T C x < 1e-13 x^T diag(C) x:  rounding of the assembly gives about 1e-16, a machine
  * on soft springs some 1e-10.
  *
- * @param C  lower triangle of the stiffness with the interface held [n x n].
+ * @param C  lower triangle of the stiffness with the interface fixed [n x n].
  */
 void require_no_free_motion(const fem::FrameMatrices &frame, const std::vector<int> &q1, const SparseMatrix &C)
 {
@@ -136,7 +136,7 @@ void require_no_free_motion(const fem::FrameMatrices &frame, const std::vector<i
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Pivots of a frame that is held well do not differ more than this; below it a free motion is looked for.
+/// Ratio of pivots below which a free motion is suspected; frames with sufficient supports stay above it.
 constexpr double suspicious_pivots = 1e-11;
 
 /// Lower triangle of C with the rows and columns of q1 replaced by their diagonal: C22, padded.
@@ -210,8 +210,8 @@ FixedInterfaceFrame::FixedInterfaceFrame(const fem::FrameMatrices &frame, const 
   factorise();
 }
 
-/// None in one process.
-/// @throws std::invalid_argument if there are more ranks than cells, or coordinates where there are no cells.
+/// The factor divided among the processes; null in one process.
+/// @throws std::invalid_argument if there are more ranks than cells or, for frames without cells, than coordinates.
 std::unique_ptr<TeamFactor> FixedInterfaceFrame::on_ranks(const std::vector<int> &q1) const
 {
   const Team *const team = Team::of_this_run();

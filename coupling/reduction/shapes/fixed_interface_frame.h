@@ -25,7 +25,7 @@ class TeamFactor;
 class FixedInterfaceFrame
 {
 public:
-  /// @throws std::invalid_argument if C22 is singular, with the free motion.
+  /// @throws std::invalid_argument if C22 is singular, with the rigid-body mode.
   /// @param eigensolver  see search_modes().
   FixedInterfaceFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1,
                       std::string eigensolver = "block-lanczos");
@@ -41,10 +41,10 @@ public:
   void release();
   void restore();
 
-  /// Number of fixed-interface modes below omega [rad/s], by the inertia of C22 - omega^2 M22; works when released too.
+  /// Number of fixed-interface modes below omega [rad/s], by the inertia of C22 - omega^2 M22; also after release().
   Inertia below(double omega) const;
 
-  /// The same for the free interface, rigid-body modes included; creates its own pattern at first.
+  /// The same for the free interface, including rigid-body modes; analyses its own pattern in the first call.
   Inertia below_if_free(double omega);
 
   const std::string &eigensolver() const { return eigensolver_; }

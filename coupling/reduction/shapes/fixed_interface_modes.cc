@@ -29,7 +29,7 @@ int FixedInterfaceModes::n() const
   return int(frame_.M.rows());
 }
 
-/// For few coordinates, where Krylov spaces run out of room.
+/// All modes by a dense solver: with few coordinates a Krylov space would be too small.
 LowestModes FixedInterfaceModes::all() const
 {
   const MatrixXd M = frame_.M, C = frame_.C;

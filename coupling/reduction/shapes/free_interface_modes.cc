@@ -20,7 +20,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Circular frequency up to which modes are kept, infinite if their number is given or there are too few to tell.
+/// Circular frequency up to which modes are kept; infinite if their number is given or too few modes are known.
 double highest_kept(const ReductionOptions &options, const VectorXd &omega)
 {
   if (options.n_modes >= 0)
@@ -30,10 +30,10 @@ double highest_kept(const ReductionOptions &options, const VectorXd &omega)
   return omega.size() >= elastic_of_interest ? reach_of_basis * omega[elastic_of_interest - 1] : INFINITY;
 }
 
-/// Finds `most`, or until one lies above the highest that is to be kept.
+/// Finds `most` modes, or fewer if one exceeds the highest frequency to be kept.
 void find_enough(FreeInterfaceModes &modes, const ReductionOptions &options, int most)
 {
-  constexpr int modes_at_once = 20; // asked for at a time, until one lies above what is kept
+  constexpr int modes_at_once = 20; // step of the search
   for (int count = options.n_modes >= 0 ? most : std::min(modes_at_once, most);;
        count     = std::min(count + modes_at_once, most))
   {

@@ -20,7 +20,7 @@ struct InterfaceStatics
   /// @throws std::invalid_argument if a rigid-body mode remains with the interface fixed.
   InterfaceStatics(const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress);
 
-  void begin(const char *phase, double share = -1.) const; ///< tells progress
+  void begin(const char *phase, double share = -1.) const; ///< reports a phase to `progress`
 
   Progress            progress;
   FixedInterfaceFrame held;

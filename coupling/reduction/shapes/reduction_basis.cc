@@ -28,7 +28,7 @@ void symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixXd> &
   const int                                   *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
   const auto                                  *a     = A.valuePtr();
   constexpr int                                lanes = 8;   // columns that travel together: a cache line of doubles
-  Eigen::Matrix<double, lanes, Eigen::Dynamic> x(lanes, n); // row i of X, eight columns of it, lies together
+  Eigen::Matrix<double, lanes, Eigen::Dynamic> x(lanes, n); // row i of X: eight columns, contiguous
   Y.resize(n, X.cols());
   for (Eigen::Index first = 0; first < X.cols(); first += lanes)
   {

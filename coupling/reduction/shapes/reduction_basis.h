@@ -8,9 +8,9 @@
 namespace gestell::coupling
 {
 
-/// Elastic modes of interest if no frequency is given.
+/// Number of elastic modes of interest if no frequency is given.
 constexpr int elastic_of_interest = 12;
-/// Highest mode of a basis over the highest frequency of interest, at least.
+/// Smallest ratio of the highest mode of a basis to the highest frequency of interest.
 constexpr double reach_of_basis = 1.5;
 
 /**
@@ -31,7 +31,7 @@ struct ReductionBasis
   auto constraint_modes() const { return T.leftCols(n1()); }
   auto fixed_modes() const { return T.rightCols(m()); }
 
-  /// In place of those there are.
+  /// Replaces the modes.
   void set_modes(const Eigen::Ref<const Eigen::MatrixXd> &V, const Eigen::VectorXd &omega);
   void truncate(int m);
 };

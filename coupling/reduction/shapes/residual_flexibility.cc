@@ -14,7 +14,7 @@ ResidualFlexibility residual_flexibility(const FixedInterfaceFrame &held, const 
   const Eigen::MatrixXd M_X   = symmetric_product(M, X);
   const Eigen::MatrixXd first = symmetric(basis.M_Psi.transpose() * X), second = symmetric(X.transpose() * M_X),
                         under_loads = both.rightCols(loads.cols());
-  both                              = M_X; // where X was: the factor leaves little room
+  both                              = M_X; // reuses the memory of X: the factor leaves little
   held.solve_in_place(both);
   return {first, second, symmetric(M_X.transpose() * both), under_loads};
 }

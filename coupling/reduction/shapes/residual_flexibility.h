@@ -27,7 +27,7 @@ struct ResidualFlexibility
 ResidualFlexibility residual_flexibility(const FixedInterfaceFrame &held, const ReductionBasis &basis,
                                          const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &loads);
 
-/// X itself: the shapes that complete few modes (reduction.md (16d)).
+/// X itself: the shapes that complete a few modes (reduction.md (16d)).
 Eigen::MatrixXd inertia_shapes(const FixedInterfaceFrame &held, const ReductionBasis &basis);
 
 } // namespace gestell::coupling

@@ -18,7 +18,7 @@ bool happened(const std::vector<Event> &events, const ActiveGuard &guard)
                      [&](const Event &event) { return event.name == guard.name && event.kind == guard.kind; });
 }
 
-/// The time from which the run begins tells a switch to act at the start, as meant.
+/// Whether a switch on time is intended to act at the start of the run.
 bool at_the_start(const Switch &own, double begin)
 {
   return own.signal == "t" && own.level == begin;

@@ -10,20 +10,20 @@
 namespace gestell::coupling
 {
 
-/// Switches that never act, or act before anything has moved, are seldom meant.
+/// Warns of switches that never trigger, or trigger before anything has moved: this is rarely intended.
 void check_switches(const Machine &machine, double begin, const std::vector<Event> &events, RunOutcome &outcome);
 
 /// Kind of the finding that a switch ended the run, as the scene specifies; the computation did not fail.
 constexpr const char *ended_by_switch = "ended-by-switch";
 
-/// Statement of the switch whose orders this event is, if they end the run; else empty.
+/// Statement of the switch whose commands this event executes, if they end the run; else empty.
 std::string end_by_switch(const Machine &machine, double begin, const Event &event);
 
-/// Positions that are given may lie inside a stop, which then throws the body out.
+/// Warns of given initial positions that penetrate a stop, which then throws the body out.
 void check_closed_contacts(const Machine &machine, const InitialState &initial, RunOutcome &outcome);
 
-/// Taken step by step, the sign of a friction is that of the last step: it may hold what it cannot.  Of the first dry
-/// friction found.
+/// Warns of dry friction whose events are not located: its sign is that of the last step, so that it may stick above
+/// its limit. Only for the first one found.
 void check_unlocated_friction(const Machine &machine, RunOutcome &outcome);
 
 } // namespace gestell::coupling

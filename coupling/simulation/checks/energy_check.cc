@@ -25,7 +25,7 @@ std::string method_and_step(const MethodOptions &method)
   return text.str();
 }
 
-/// What keeps more of the energy than the method does.
+/// Remedy for a method that conserves energy badly.
 std::string remedy(const MethodOptions &method, EnergyGuard::Verdict verdict)
 {
   if (method.tolerance > 0.)
@@ -39,7 +39,7 @@ std::string remedy(const MethodOptions &method, EnergyGuard::Verdict verdict)
 /// The balance must not err more than the integrator.
 PowerRule power_rule(const MethodOptions &method, const Sampling &sampling)
 {
-  // Of a sine four points integrate the square to 1e-5 of it over half a period.
+  // For a sine four points integrate the square with an error of 1e-5 over half a period.
   constexpr double samples = 8.;
   return {method_of(method).takes_long_steps(method), samples * sampling.shortest};
 }
@@ -99,7 +99,7 @@ void EnergyCheck::finish(RunOutcome &outcome)
   const std::string words = this->words(verdict);
   if (outcome.failure.empty() && verdict == EnergyGuard::Verdict::no_motion && !forced_)
     outcome.stop(energy_finding, "", words);
-  else if (outcome.end_id != energy_finding) // with which verify() may have ended the run
+  else if (outcome.end_id != energy_finding) // verify() may have ended the run with it
     outcome.warn(energy_finding, "", words);
 }
 

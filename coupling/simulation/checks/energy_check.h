@@ -11,7 +11,7 @@
 namespace gestell::coupling
 {
 
-/// Keeps the energy balance of a motion and judges it: what is open of it, and forces that are rounding.
+/// Computes the energy balance of a motion and checks its residual, and forces that are only rounding errors.
 class EnergyCheck : public RunObserver
 {
 public:
@@ -21,12 +21,12 @@ public:
   void begin() override;
   void step() override;
   void event(const Event &) override { energy_.jump(integrator_.instant()); }
-  void verify() const override; ///< throws for a spurious energy gain, or a loss of more than there was
+  void verify() const override; ///< throws for a spurious energy gain, or a loss of more than the available energy
   void finish(RunOutcome &outcome) override;
   void exchange(StateArchive &archive) override;
 
   const EnergySummary &summary() const { return summary_; } ///< at the end of the last step
-  /// At an instant inside it.
+  /// At an instant inside the last step.
   EnergySummary inside(const Instant &instant);
 
 private:
@@ -35,7 +35,7 @@ private:
   const Machine        &machine_;
   const TimeIntegrator &integrator_;
   MethodOptions         method_;
-  bool                  forced_; ///< runs although it is not a motion
+  bool                  forced_; ///< the run continues although its result is not physical
   EnergyBalance         energy_;
   PowerRule             rule_;
   EnergyGuard           guard_;

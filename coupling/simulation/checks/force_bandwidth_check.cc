@@ -31,7 +31,7 @@ std::string percent_of(double share)
   return text.str();
 }
 
-/// omega' [rad/s]: of modes whose errors are not known, as if they began behind those that are, or behind the range.
+/// omega' [rad/s]: modes with unknown errors are assumed to be above the known ones, or above the range.
 VectorXd refined(const ReducedFrame &frame, const VectorXd &omega)
 {
   VectorXd result(omega.size());
@@ -45,7 +45,7 @@ VectorXd refined(const ReducedFrame &frame, const VectorXd &omega)
   return result;
 }
 
-/// What the base system has beside the frame: springs or dampers [n x n].
+/// Springs or dampers [n x n] of the base system in addition to the frame.
 MatrixXd beside_frame(MatrixXd base, const MatrixXd &frame)
 {
   base.topLeftCorner(frame.rows(), frame.cols()) -= frame;
@@ -79,7 +79,7 @@ ForceBandwidthCheck::ForceBandwidthCheck(const Machine &machine, const TimeInteg
   take_modes(*frame);
 }
 
-/// As loads on the frame, until take_modes() makes them loads on its modes.
+/// Stored as loads on the frame, until take_modes() converts them to loads on its modes.
 void ForceBandwidthCheck::take_forces(const Machine &machine, const MatrixXd &W, const MatrixXd &springs,
                                       const MatrixXd &dampers)
 {
@@ -113,7 +113,7 @@ void ForceBandwidthCheck::take_modes(const ReducedFrame &frame)
   const ArrayXXd share = (w.transpose() * V * omega.cwiseInverse().asDiagonal()).array().square(); // of flexibilities
   const ArrayXd  whole = share.rowwise().sum().max(std::numeric_limits<double>::min());
   std::vector<Eigen::Index> taken;
-  // Of the flexibility at every place, below which a mode does not count: a hundredth of worth_a_word and less.
+  // Share of the flexibility at every point below which a mode is ignored: less than a hundredth of worth_a_word.
   constexpr double takes_part = 1e-4;
   for (Eigen::Index k = 0; k < p; ++k)
     if ((share.col(k) / whole).maxCoeff() > takes_part)
@@ -129,7 +129,7 @@ void ForceBandwidthCheck::take_modes(const ReducedFrame &frame)
 
   shapes_ = w.transpose() * Phi * model.square().inverse().matrix().asDiagonal();
   for (MatrixXd *load : {&by_measures_, &by_loads_, &by_motion_, &by_rates_})
-    if (load->rows() > 0) // of a machine whose only forces are base springs, by_measures_ has no columns
+    if (load->rows() > 0) // without forces except base springs by_measures_ has no columns
       *load = (Phi.transpose() * *load).eval();
 
   const ArrayXd zeta = (Phi.transpose() * frame.B * Phi).diagonal().array() / (2. * model);
@@ -266,10 +266,10 @@ void ForceBandwidthCheck::finish(RunOutcome &outcome)
   const ArrayXd            work   = (most_ - least_) * deflection_;
   for (std::size_t i = 0; i < places_.size(); ++i)
   {
-    // Part of a deflection from which a doubt is worth a word: five times what the reduction leaves by default.
+    // Share of a deflection above which a note is printed: five times the default error of the reduction.
     constexpr double worth_a_word = 0.05;
-    // Of the most work that a force does, from which its deflection counts: a tenth of the size in deflections of one
-    // kind.
+    // Share of the largest work of a force above which its deflection is included: a tenth of the size for deflections
+    // of one kind.
     constexpr double counts = 0.01;
     if (!(doubt(i, 0) > worth_a_word && work[Eigen::Index(i)] > counts * work.maxCoeff()))
       continue;

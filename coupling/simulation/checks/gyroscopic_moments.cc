@@ -48,7 +48,7 @@ void check_tilting_rotors(const Machine &machine, const Eigen::VectorXd &v, RunO
     };
     const double kappa =
         column[body.coordinate] * speed * speed * std::sqrt(std::max(0., flexibility(w_a) * flexibility(w_b)));
-    // kappa: 2 % of the moments that hold the axis, twice what frames are reduced to
+    // kappa: 2 % of the moments that keep the axis, twice the error of reduced frames
     constexpr double considerable = 0.02;
     if (!(kappa > considerable))
       continue;

@@ -34,7 +34,7 @@ JointForceGuard::JointForceGuard(const Machine &machine, const TimeIntegrator &i
   find_inertias();
 }
 
-/// Of each coordinate the measure of a joint that is this coordinate alone.
+/// Finds for each coordinate the measure of a joint that equals this coordinate.
 void JointForceGuard::find_inertias()
 {
   const auto &W = machine_.forces().directions();
@@ -56,7 +56,7 @@ void JointForceGuard::find_inertias()
   }
 }
 
-/// Loads, elements, inertia, and what rounding leaves.
+/// Size of loads, element forces, inertia forces and rounding.
 double JointForceGuard::known_forces()
 {
   const LocalState &now = integrator_.local();
@@ -88,11 +88,11 @@ void JointForceGuard::step()
   Eigen::Index row;
   const double force = lambda.cwiseAbs().maxCoeff(&row), lever = std::max(size_, 1. / size_), bound = limit * lever;
   if (!(force > lever * largest_))
-    return; // what was seen before explains it
+    return; // forces seen before explain it
   largest_ = std::max(largest_, known_forces());
   if (!(force > bound * largest_))
     return;
-  largest_ = std::max(largest_, known_forces() + elastic_forces()); // which cost more, and are seldom needed
+  largest_ = std::max(largest_, known_forces() + elastic_forces()); // expensive and rarely needed
   if (!(force > bound * largest_))
     return;
   std::ostringstream text;

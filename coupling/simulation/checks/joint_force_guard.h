@@ -10,17 +10,16 @@ namespace gestell::coupling
 {
 
 /**
- * Ends a run whose joints carry forces that nothing in the machine could cause: equations of joints that depend on each
- * other are met by forces of any size, which balance each other or act by a lever that is rounding.
+ * Ends a run whose joint forces have no physical cause.  Redundant joint equations admit forces of any size that
+ * balance each other, or act with a lever that is only a rounding error.
  *
  * A multiplier is compared with all other forces of the machine together, their largest sum so far,
  *
  *     |lambda| > 1/sqrt(epsilon) max(L, 1/L) sum( |f_t| + |p| + |m a| + |C q| + |B v| + m epsilon L/h^2 ),
  *
- * N and N m alike: L, the size of the largest joint, makes the one the other.  A linkage that enlarges a force so much
- * is within 1e-8 rad of a dead position, where half of all digits are lost.  The last term is what rounding leaves
- * where a machine does not move.  The sum is formed only where a multiplier exceeds max(L, 1/L) times the largest one
- * so far, which most steps do not.
+ * where the size L of the largest joint converts between N and N m.  A linkage that amplifies a force so much is within
+ * 1e-8 rad of a dead position, where half of all digits are lost.  The last term is the rounding error in a machine at
+ * rest.  The sum is formed only if a multiplier exceeds max(L, 1/L) times the largest sum so far, which is rare.
  *
  * Source: docs/theory/joints.md (4a).
  */
@@ -36,7 +35,7 @@ public:
   void exchange(StateArchive &archive) override;
 
 private:
-  /// A measure that is one coordinate of bodies in joints.
+  /// A measure that is a single coordinate of bodies with joints.
   struct Inertia
   {
     int    measure;

@@ -8,8 +8,8 @@ namespace gestell::coupling
 class StateArchive;
 
 /**
- * Oscillators  x'' + 2 zeta omega x' + omega^2 x = omega^2 u  side by side, for inputs u that are linear between
- * instants: each step is exact for them.  At rest x = u.
+ * Parallel oscillators  x'' + 2 zeta omega x' + omega^2 x = omega^2 u  for inputs u that are linear between instants:
+ * each step is exact.  At rest x = u.
  */
 class OscillatorBank
 {
@@ -18,9 +18,9 @@ public:
   /// @param omega, zeta  [n] rad/s; 0 <= zeta < 1
   OscillatorBank(const Eigen::ArrayXd &omega, const Eigen::ArrayXd &zeta);
 
-  void begin(const Eigen::ArrayXd &u);             ///< has been u for ever
-  void advance(double h, const Eigen::ArrayXd &u); ///< by h [s], behind which the inputs are u
-  void jump(const Eigen::ArrayXd &u);              ///< the inputs jump at this instant
+  void begin(const Eigen::ArrayXd &u);             ///< static state for the constant input u
+  void advance(double h, const Eigen::ArrayXd &u); ///< by h [s]; u is the input at the end
+  void jump(const Eigen::ArrayXd &u);              ///< inputs jump to u at this instant
 
   const Eigen::ArrayXd &x() const { return x_; }
 

@@ -10,8 +10,8 @@
 namespace gestell::coupling
 {
 
-/// Checks cylinders of oil and of gas after every step: pressures of oil below zero, at which it cavitates, and pistons
-/// at the end of their stroke.  Their laws know neither.
+/// Checks oil and gas cylinders after every step for oil pressures below zero, where cavitation occurs, and pistons at
+/// the end of their stroke.  Their laws include neither.
 class PistonLimits : public RunObserver
 {
 public:
@@ -20,18 +20,18 @@ public:
   void begin() override { step(); }
   void step() override;
 
-  /// For each limit that was passed: when it was for the first time, and how far at most.
+  /// Adds a finding for each limit exceeded, with the time of the first violation and the largest one.
   void finish(RunOutcome &outcome) override;
   void exchange(StateArchive &archive) override;
 
 private:
-  /// A signal that should not fall below zero after `offset` was added and `sign` taken.
+  /// sign * signal + offset, which should not fall below zero.
   struct Limit
   {
     Signal      signal;
     double      sign = 1., offset = 0.;
     std::string object, id, what, advice;
-    double      t = 0., value = 0.; ///< of the step before
+    double      t = 0., value = 0.; ///< of the previous step
     bool        known = false, passed = false;
     double      first = 0., lowest = 0.;
   };

@@ -27,7 +27,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Switches that were thrown at the start, or never.
+/// Reports switches that acted at the start, or never.
 class SwitchCheck : public RunObserver
 {
 public:
@@ -48,7 +48,7 @@ private:
   std::vector<Event> thrown_; ///< the first time of each
 };
 
-/// Steps that were divided, and those with more events than are located.
+/// Reports steps that were divided, and steps with more events than are located.
 class WorkCheck : public RunObserver
 {
 public:
@@ -69,8 +69,8 @@ public:
                    "Newton failed in " + std::to_string(long(total[rejected])) + " steps; they were divided");
     const double     share          = total[chatter_time] / (std::max(options_.end, motion_.time()) - options_.begin);
     constexpr double seldom_skipped = 1e-4; // share of a run whose events need not be located
-    constexpr double often_skipped  = 0.1;  // share of controlled steps that go over events
-    // Controlled steps that go over events still keep their tolerance.
+    constexpr double often_skipped  = 0.1;  // share of controlled steps that skip events
+    // Controlled steps that skip events still keep their tolerance.
     if (total[chatter] == 0. ||
         (controlled(options_.method) ? total[chatter] < often_skipped * total[steps] : share < seldom_skipped))
       return;
@@ -79,7 +79,7 @@ public:
          << " % of the run, had more events than are located; they were gone over";
     outcome.warn("chatter", "run.events", text.str());
   }
-  /// The counters of the integrator go on where its motion began anew: what they counted of the one left is forgotten.
+  /// The counters of the integrator continue where its motion restarted: counts of the discarded motion are removed.
   void exchange(StateArchive &archive) override
   {
     long starts = starts_;
@@ -118,7 +118,7 @@ private:
   const RunOptions options_;
 };
 
-/// What only the end tells: the speeds of rotors, and forces against the steps that were made.
+/// Checks that need the end: the speeds of rotors, and forces compared with the steps made.
 class EndCheck : public RunObserver
 {
 public:

@@ -12,19 +12,19 @@
 namespace gestell::coupling
 {
 
-/// Findings on a run before its first step.
+/// Checks a run before its first step.
 /// @return  numerical damping and period error of each mode
-/// @throws std::invalid_argument as StabilityGuard::check(), unless options.force_unstable
+/// @throws std::invalid_argument as StabilityGuard::check() does, unless options.force_unstable is set
 std::vector<ModeAccuracy> check_start(const Machine &machine, const InitialState &initial, const RunOptions &options,
                                       const MethodOptions &method, RunOutcome &outcome);
 
-/// All checks of a motion that has begun, but for the balance of energy (EnergyCheck), in the order of their findings.
-/// Arguments must outlive them.
+/// All checks of a running motion except the energy balance (EnergyCheck), in the order of their findings. Arguments
+/// must outlive them.
 std::vector<std::unique_ptr<RunObserver>> run_checks(Machine &machine, const Motion &motion,
                                                      const InitialState &initial, const RunOptions &options,
                                                      const MethodOptions &method);
 
-/// Possible causes of a step that was not solved, to be added to its message; empty: none is known.
+/// Possible causes of a failed step, for its message; empty: none is known.
 std::string advice_on_failure(const Machine &machine, const MethodOptions &method, const Instant &last);
 
 } // namespace gestell::coupling

@@ -86,7 +86,7 @@ bool stable_at_every_step(const MethodOptions &options)
 
 // --- motions of all modes together, for methods with IntegrationMethod::step_weights()
 
-/// omega^2, negative for motions that are driven away.
+/// omega^2, negative for unstable motions.
 Eigen::VectorXd stiffness_of(const LinearMachine &machine)
 {
   return machine.modes.omega.cwiseAbs2() - machine.modes.growth.cwiseAbs2();
@@ -100,7 +100,7 @@ Eigen::MatrixXd balance(const LinearMachine &machine, const StepWeights &w, doub
   return S;
 }
 
-/// No motion x r^k: the balance is positive definite.
+/// Whether no motion x r^k exists because the balance is positive definite.
 bool balanced(const LinearMachine &machine, const MethodOptions &options, double h, double r)
 {
   const StepWeights w        = *method_of(options).step_weights(options, r);
@@ -192,7 +192,7 @@ std::string describe(const ModeAccuracy &mode)
          (mode.origin == ModeOrigin::base ? " of the frame " : " of the machine with closed contacts ") + what;
 }
 
-/// "0.3567 < omega h < 1.863", the interval in which the mode lies.
+/// "0.3567 < omega h < 1.863", the interval that contains the mode.
 std::string interval_text(const ModeAccuracy &mode, const MethodOptions &options)
 {
   const TestOscillator o = oscillator(mode, mode.omega_h, options);
@@ -217,9 +217,9 @@ double rounded_down(double h)
   return unit * std::floor(h / unit);
 }
 
-/// How much of the coupling of modes by dampers is left out: told accuracy is that of the damping ratio to a per cent;
-/// where growth is judged by it, to a ten thousandth, which moves the ends of unstable intervals by less than the three
-/// digits of a step.
+/// Neglected part of the coupling of modes by dampers: for reported accuracy one per cent of the damping ratio; for the
+/// decision on growth a ten thousandth, which moves the ends of unstable intervals by less than the three digits of a
+/// step.
 CouplingTolerance coupling_tolerance(const MethodOptions &options)
 {
   const bool judged = !stable_at_every_step(options) && !weighs_steps(options);
@@ -256,7 +256,7 @@ void StabilityGuard::add_machine(const LinearMachine &machine)
         accuracy(machine.origin, int(mode.nearest) + 1, mode.line, machine.contact_omega[mode.nearest], options_));
   if (!weighs_steps(options_))
     return;
-  // What a mode would do alone is no verdict: the modes are coupled.
+  // The single mode does not decide, because modes are coupled.
   const auto motion = growing_motion(machine, options_, options_.step);
   for (std::size_t i = first; i < modes_.size(); ++i)
   {
@@ -286,7 +286,7 @@ void StabilityGuard::add_large()
   double above = 0.; // highest frequency that is known
   for (const LargeMode &mode : spectrum_.large)
   {
-    // Where modes are not carried one by one, dampers may leave any motion without damping.
+    // If modes are not integrated separately, dampers may leave any motion undamped.
     SpectrumLine line = weighs_steps(options_) ? SpectrumLine{mode.line.omega, 0.} : mode.line;
     if (mode.bound)
       line.omega = worst_below(above, line, options_) / options_.step;
@@ -317,7 +317,7 @@ std::string StabilityGuard::message_of(const ModeAccuracy &worst) const
   return text;
 }
 
-/// For methods whose modes are coupled.
+/// Whether the motion grows; for methods that couple modes.
 bool StabilityGuard::motion_grows(double h) const
 {
   const auto weights = method_of(options_).growing_weights(options_);
@@ -339,7 +339,7 @@ bool StabilityGuard::mode_grows(double h) const
                      });
 }
 
-/// Every step a little shorter, since modes pass through islands of growth.
+/// Tries slightly shorter steps one after the other, because modes pass through islands of growth.
 double StabilityGuard::by_ladder() const
 {
   constexpr double ladder = 0.97; // a mode that grows within 3 % of a step only is not met; bisection follows
@@ -352,7 +352,7 @@ double StabilityGuard::by_ladder() const
   return mode_grows(rounded_down(h)) ? 0. : rounded_down(h);
 }
 
-/// The steps that are stable begin at zero: m + b h x^T B x + c h^2 x^T C x with m > 0 has one zero for every x.
+/// The interval of stable steps starts at zero: m + b h x^T B x + c h^2 x^T C x with m > 0 has one zero for every x.
 double StabilityGuard::by_bisection() const
 {
   double h = 1e-3 * options_.step, grown = options_.step;

@@ -9,67 +9,68 @@
 namespace gestell::coupling
 {
 
-/// What a method with a fixed step makes of one mode.
+/// Effect of a method with a fixed step on one mode.
 struct ModeAccuracy
 {
   ModeOrigin   origin;
-  int          number; ///< from 1, by frequency, those that do not vibrate counted as well
+  int          number; ///< from 1, by frequency; modes that do not vibrate are counted too
   SpectrumLine mode;
-  double       omega_h;           ///< omega h; under exact propagation that of the contact's stiffness alone
-  double       spectral_radius;   ///< > 1: grows in every step by this factor
-  double       numerical_damping; ///< ratio, beyond the physical one; nan where the method's motion does not vibrate
+  double       omega_h;           ///< omega h; with exact propagation, of the stiffness of the contact only
+  double       spectral_radius;   ///< > 1: growth factor of every step
+  double       numerical_damping; ///< damping ratio beyond the physical one; nan if the solution does not vibrate
   double       period_error;      ///< relative, > 0: too slow; nan as above
-  bool         unstable;          ///< grows by more than 1e-10 in a step: e^0.1 in 1e9 steps
-  bool         bound = false;     ///< stands for modes that are not known one by one
+  bool         unstable;          ///< grows by more than 1e-10 per step: e^0.1 in 1e9 steps
+  bool         bound = false;     ///< upper bound for modes that are not known individually
 };
 
-/// What the guard looks at: nothing where the step is controlled, or where the machine is large and the method stable
-/// at every step.
+/// The spectrum for the guard: empty if the step is controlled, or if the machine is large and the method is
+/// unconditionally stable.
 LinearSpectrum spectrum_for(const Machine &machine, const InitialState &start, const MethodOptions &options);
 
 /**
- * Lays the linear machine over a method with its fixed step before a run, base and with closed contacts, as the
- * integrator sees them: in the motions that joints leave free, with the dampers that couple the modes.
+ * Checks the stability of a method with its fixed step for the linearised machine before a run, with open and with
+ * closed contacts, in the DOFs that joints leave free, including dampers that couple the modes.
  *
- * - BDF takes each complex mode by itself: its scalar formula at omega = |s|, zeta = -Re s/|s| decides.
- * - Newmark's method, central differences and Wilson's do not: a motion x r^k with real r < -1 grows where
- *   m(r) M + b(r) h B + c(r) h^2 C is not positive definite, and for gamma >= 1/2 no other can (docs/stability.md).
- *   Newmark's method with gamma < 1/2 takes, besides, the complex modes of the machine that its step amounts to.
- * - HHT and generalised alpha are stable at every step, for any dampers.
- * - Where forces follow the motion, the roots r of all modes together decide in place of definiteness: growing_step().
- * - Exact propagation approximates the stiffness of elements only, in the mode v by omega_c^2 = v^T K v of omega^2:
- *   growth is that of a contact oscillator at omega_c h, period error and numerical damping are its own times
- *   omega_c^2/omega^2, in first order.
+ * - BDF integrates each complex mode separately: its scalar formula at omega = |s|, zeta = -Re s/|s| decides.
+ * - Newmark's method, central differences and Wilson's method do not: a motion x r^k with real r < -1 grows if m(r) M +
+ *   b(r) h B + c(r) h^2 C is not positive definite, and for gamma >= 1/2 no other motion can grow (docs/stability.md).
+ *   For Newmark's method with gamma < 1/2 the complex modes of the machine that is equivalent to its step are also
+ *   checked.
+ * - HHT and generalised alpha are stable with every step, for any dampers.
+ * - With follower forces definiteness does not decide; the roots r of all modes together do: growing_step().
+ * - Exact propagation approximates only the stiffness of elements, which contributes omega_c^2 = v^T K v to omega^2 of
+ *   the mode v.  The growth is that of a contact oscillator at omega_c h; period error and numerical damping are those
+ *   of this oscillator times omega_c^2/omega^2, to first order.
  *
- * Negative damping ratios count as zero: what grows by itself is no fault of the method.  Modes without stiffness do
- * not vibrate and are left out.
+ * Negative damping ratios are set to zero: physical growth is not an error of the method.  Modes without stiffness do
+ * not vibrate and are omitted.
  */
 class StabilityGuard
 {
 public:
-  /// Looks at nothing where the step is controlled (options.tolerance > 0).
-  /// @param spectrum  outlives the guard
+  /// Not active if the step is controlled (options.tolerance > 0).
+  /// @param spectrum  must outlive the guard
   StabilityGuard(const LinearSpectrum &spectrum, const MethodOptions &options);
 
-  /// Every vibrating mode as the method carries it: base, then closed.
+  /// Every vibrating mode in the numerical solution: with open, then with closed contacts.
   const std::vector<ModeAccuracy> &modes() const { return modes_; }
 
   /**
-   * Refuses the run if a motion grows.  Closed contacts stop a run as well, except with exact propagation: there the
-   * base system never grows, and a contact that is left because its force is wrong is closed for few steps only, where
-   * order and tolerance matter more; see warnings().
+   * Rejects the run if a motion grows, also if it grows only with closed contacts.  Exact propagation is an exception:
+   * its base system never grows, and contacts are closed for few steps only, so that order and tolerance matter more;
+   * see warnings().
    *
-   * @throws std::invalid_argument that says `unstable` and names the fastest growing mode, its frequency and damping
-   * ratio, the unstable interval of omega h, its growth per step, and the way out: a step or a method that works, and
+   * @throws std::invalid_argument with the word `unstable`, the fastest growing mode, its frequency and damping ratio,
+   * the unstable interval of omega h, its growth per step, and the remedy: a step or a method that works, and
    * run.force_unstable.
    */
   void check() const;
 
-  /// What a run should tell although it is not refused: modes of closed contacts that exact propagation makes grow as
-  /// long as the contact stays closed.
+  /// Warnings of a run that is accepted: modes of closed contacts that grow with exact propagation as long as the
+  /// contact is closed.
   std::vector<std::string> warnings() const;
 
-  /// The largest step below options.step, to three digits, at which nothing grows; 0 if there is none down to a
+  /// The largest step below options.step, to three digits, with which no motion grows; 0 if there is none above a
   /// thousandth of it.
   double largest_stable_step() const;
 

@@ -11,10 +11,10 @@
 namespace gestell::coupling
 {
 
-constexpr double most_steps = 1e10; ///< of a run: hours of the smallest machine
+constexpr double most_steps = 1e10; ///< in a run: hours for the smallest machine
 
-/// Ends a run whose controlled steps have become so short that it would never end: if the rest of it would need more
-/// than `most_steps` at the pace of the last ones.
+/// Ends a run whose controlled steps have become too short: the rest would need more than `most_steps` at the present
+/// step size.
 class StepCollapseGuard : public RunObserver
 {
 public:
@@ -32,7 +32,7 @@ public:
   {
     if (++steps_ % window != 0)
       return;
-    const double t = integrator_.time(), rest = t < end_ ? end_ - t : end_ - begin_; // others may continue after it
+    const double t = integrator_.time(), rest = t < end_ ? end_ - t : end_ - begin_; // a run may continue past its end
     const double steps = window * rest / std::max(t - from_, 1e-300);
     if (steps > most_steps)
     {

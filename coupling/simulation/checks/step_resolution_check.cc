@@ -17,7 +17,7 @@ namespace
 using Eigen::ArrayXd;
 using Eigen::VectorXd;
 
-/// below which it is worth a word: linear interpolation misses 5 % of a sine of ten points
+/// below it a note is printed: linear interpolation misses 5 % of a sine with ten points
 constexpr double  steps_of_period = 10.;
 constexpr double  negligible      = 1e-9; ///< R, of the largest force: rounding
 const char *const resolution      = "step-resolution";
@@ -31,7 +31,7 @@ std::string words(const Parts &...parts)
   return text.str();
 }
 
-/// What a look at a step finds of each force.
+/// Statistics of each force from the samples of steps.
 class Looks
 {
 public:
@@ -51,7 +51,7 @@ public:
     low_  = low_.min(p.array());
     high_ = high_.max(p.array());
   }
-  /// A second look at the same steps, when ranges are known.
+  /// Second pass over the same steps, when ranges are known.
   void compare(const ArrayXd &largest_difference)
   {
     constexpr double differs = 1. / 40.; // D of R: 2.4 % at ten steps a period
@@ -70,7 +70,7 @@ public:
   double range(Eigen::Index i) const { return high_[i] - low_[i]; }
   double seen_range(Eigen::Index i) const { return seen_high_[i] - seen_low_[i]; }
   int    n_differing(Eigen::Index i) const { return differ_[std::size_t(i)]; }
-  /// Of those that have numbers.
+  /// Largest of the finite ones.
   double largest() const
   {
     double largest = 0.;
@@ -90,7 +90,7 @@ struct Steps
 {
   double begin, h, number, looked_at;
 
-  double operator[](int k) const { return begin + h * std::floor(k * number / looked_at); } ///< begin of a step [s]
+  double operator[](int k) const { return begin + h * std::floor(k * number / looked_at); } ///< start of a step [s]
   int    size() const { return int(looked_at); }
 };
 
@@ -101,12 +101,12 @@ Steps steps_of(double begin, double end, double h, Eigen::Index n)
   return {begin, h, number, std::min(number, std::clamp(most_forces / double(n), least_looks, most_looks))};
 }
 
-/// Forces at a motion that stays as it is, at any time.
+/// Forces for a constant motion, at any time.
 class AtTime
 {
 public:
   AtTime(const LocalForces &forces, const LocalState &state)
-      : forces_(forces), state_(state), p_(VectorXd::Zero(state.u.size())) // what sticks has no law that writes there
+      : forces_(forces), state_(state), p_(VectorXd::Zero(state.u.size())) // laws of sticking measures write nothing
   {
   }
 
@@ -123,7 +123,7 @@ private:
   VectorXd           p_;
 };
 
-/// A first look at the middle of steps: most forces do not depend on time by themselves.
+/// First pass with the middle of steps: most forces do not depend explicitly on time.
 bool depend_on_time(AtTime &at, const Steps &steps, Eigen::Index n)
 {
   Looks looks(n);
@@ -168,7 +168,7 @@ void add_of_time(const LocalForces &forces, const LocalState &state, double begi
   constexpr int most_named = 3; // forces, a message each
   for (Eigen::Index i = 0; i < n && n_named < most_named; ++i)
   {
-    constexpr double seen   = 0.5; // share of R: the other half lies between the steps
+    constexpr double seen   = 0.5; // share of R: the other half is between the ends of steps
     const bool       hidden = looks.seen_range(i) < seen * looks.range(i);
     constexpr double often  = 0.25; // share of the steps: kinks and shocks take fewer
     if (!(looks.range(i) > least) || !(hidden || looks.n_differing(i) > often * steps.size()))
@@ -196,11 +196,11 @@ void add_of_loads(const Machine &machine, double h, RunOutcome &outcome)
                        " Hz; take at most a twentieth of that period, ", 2. * M_PI / omega / 20., " s"));
 }
 
-/// The first force that changes with the angle of a body and is the same again after a turn: one that is not belongs to
-/// another angle, too, as that of a shaft between two rotors.  -1: none.
+/// The first force that changes with the angle of a body and is equal after a revolution: one that is not depends on
+/// another angle too, such as that of a shaft between two rotors.  -1: none.
 Eigen::Index turning_with(const LocalForces &forces, const LocalState &last, int coordinate)
 {
-  constexpr int  looks = 16; // of a turn: forces of up to seven teeth are seen
+  constexpr int  looks = 16; // per revolution: resolves forces with up to seven teeth
   const VectorXd turn  = forces.directions().row(coordinate).transpose();
   LocalState     state = last;
   VectorXd       p     = VectorXd::Zero(last.u.size()), first;
@@ -214,7 +214,7 @@ Eigen::Index turning_with(const LocalForces &forces, const LocalState &last, int
       first = p;
   }
   const double     least = negligible * seen_forces.largest();
-  constexpr double same  = 1e-6; // forces before and after a turn, of their range
+  constexpr double same  = 1e-6; // difference of forces before and after a revolution, relative to their range
   for (Eigen::Index i = 0; i < p.size(); ++i)
     if (seen_forces.range(i) > least && std::abs(p[i] - first[i]) <= same * seen_forces.range(i))
       return i;

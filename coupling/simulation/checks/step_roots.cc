@@ -34,7 +34,7 @@ Eigen::Matrix<double, most_degree + 1, 3> coefficients(const MethodOptions &opti
   return powers.inverse() * values;
 }
 
-/// max Re s of the machine, 0 where nothing grows.
+/// max Re s of the machine; 0 if nothing grows.
 double own_growth(const LinearMachine &machine)
 {
   return std::max(0., damped_roots(machine.modes, machine.C, machine.B).real().maxCoeff());
@@ -64,9 +64,9 @@ std::optional<GrowingMotion> growing_step(const LinearMachine &machine, const Me
   const GeneralEigenSolver solver(companion);
   Index                    fastest;
   const double             radius = solver.eigenvalues().cwiseAbs().maxCoeff(&fastest);
-  // Growth of a step that is none: of a motion at rest (r = 1) and of a stiff one (r = -1) two roots meet, which
-  // rounding parts by its root, 1e-8, times their condition. At a limit of the step |r| rises as the root of what is
-  // beyond it.
+  // Growth of a step that is only rounding: for a motion at rest (r = 1) and a stiff one (r = -1) there is a double
+  // root, which rounding splits by its root, 1e-8, times their condition. At a limit of the step |r| grows with the
+  // root of the excess.
   constexpr double harmless_of_double = 1e-6;
   if (std::log(radius) <= 2. * own_growth(machine) * h + harmless_of_double)
     return {};

@@ -8,7 +8,7 @@
 namespace gestell::coupling
 {
 
-/// A direction of motion in the modes that grows, and by how much in every step.
+/// A growing motion in modal coordinates, and its growth per step.
 struct GrowingMotion
 {
   double          radius;
@@ -16,13 +16,13 @@ struct GrowingMotion
 };
 
 /**
- * The motion x r^k that grows fastest under a method with step_weights(), over a machine of forces that follow the
- * motion, where no definiteness decides (LinearMachine::C):
+ * The motion x r^k that grows fastest with a method that has step_weights(), for a machine with follower forces, where
+ * definiteness does not decide (LinearMachine::C):
  *
  *     (mass(r) E + damping(r) h B + stiffness(r) h^2 C) x = 0,
  *
- * a matrix polynomial in r of second or third degree.  What grows by itself, exp(sigma t), is no fault of the method:
- * nothing where ln |r| is at most 2 sigma h, a growth that the step has no more than doubled.
+ * a matrix polynomial in r of second or third degree.  Physical growth exp(sigma t) is not an error of the method: the
+ * result is empty if ln |r| <= 2 sigma h, at most twice the physical growth rate.
  *
  * Source: docs/stability.md, Forces that follow the motion.
  */

@@ -143,8 +143,8 @@ double StiffnessCheck::frequency_at_peak(const Watched &watched, const Eigen::Ve
 
 void StiffnessCheck::fail(const LocalState &state, double share, const Watched &watched) const
 {
-  // A motion that meets the element inside a step goes on without its force for v h at most, which makes energy of the
-  // share (omega h)^2 at constant stiffness and less at one that grows: a third keeps it below 1/9.
+  // A motion that reaches the element inside a step continues without its force for v h at most, which creates energy
+  // of the share (omega h)^2 for constant stiffness and less for a growing one: a third keeps it below 1/9.
   constexpr double   resolved = 1. / 3.;
   std::ostringstream text;
   text.precision(4);

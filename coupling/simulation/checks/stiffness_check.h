@@ -11,8 +11,8 @@ namespace gestell::coupling
 {
 
 /**
- * Elements whose stiffness grows with the motion (a contact after Hertz, a cubic spring) against the stiffness that a
- * method with fixed step and a limit stands: the guard before the run knows them at the start only.
+ * Checks elements whose stiffness grows with the motion (Hertzian contact, cubic spring) against the stability limit of
+ * a method with a fixed step: the guard before the run knows only their initial stiffness.
  *
  * With the weights m, b, c < 0 of the motion x (-1)^k (step_weights()) and the stiffness K(u) of these elements the
  * balance A + c h^2 W K(u) W^T, A = m M + b h B + c h^2 C with all others in the stiffest branch of their laws, must
@@ -20,17 +20,17 @@ namespace gestell::coupling
  *
  *     largest eigenvalue of  -c h^2 K(u) F  below 1,     F = W^T A^-1 W.
  *
- * Its trace is a bound, which in most steps is all that is looked at.  Source: docs/stability.md.
+ * The trace is an upper bound, which suffices in most steps.  Source: docs/stability.md.
  */
 class StiffnessCheck : public RunObserver
 {
 public:
-  /// Looks at nothing under other methods, and on machines too large for dense matrices.
+  /// Not active for other methods, and for machines too large for dense matrices.
   StiffnessCheck(const Machine &machine, const TimeIntegrator &integrator, const InitialState &start,
                  const MethodOptions &options);
 
-  /// After every step.
-  /// @throws ConvergenceFailure naming the element, its stiffness and a step that stands what it will come to
+  /// Called after every step.
+  /// @throws ConvergenceFailure with the element, its stiffness and a step that would be stable
   void step() override;
   void exchange(StateArchive &archive) override;
 
@@ -38,8 +38,8 @@ private:
   struct Watched
   {
     const ElementPlacement *placement;
-    int                     first, size; ///< of its measures among all
-    int                     row;         ///< and in F
+    int                     first, size; ///< of its measures
+    int                     row;         ///< first row in F
   };
 
   Eigen::MatrixXd   stiffness(const Watched &watched, const Eigen::VectorXd &u) const;
@@ -53,7 +53,7 @@ private:
   std::vector<Watched>  watched_;
   Eigen::MatrixXd       F_;         ///< -c h^2 W^T A^-1 W of the watched measures
   Eigen::MatrixXd       lightness_; ///< W^T M^-1 W of these
-  LocalState            last_;      ///< after the step before
+  LocalState            last_;      ///< after the previous step
 };
 
 } // namespace gestell::coupling

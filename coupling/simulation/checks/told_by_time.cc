@@ -8,7 +8,7 @@ namespace
 
 using Eigen::VectorXd;
 
-/// Values as functions of the time alone.
+/// Values as functions of time only.
 struct Changes
 {
   VectorXd changes, differs; ///< largest, from the first instant and from that a shift later

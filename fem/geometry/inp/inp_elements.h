@@ -14,16 +14,16 @@ struct InpElementKind
   {
     solid,
     surface, ///< names a surface
-    line     ///< left out
+    line     ///< ignored
   };
-  std::string      begin; ///< of the name of the type
+  std::string      begin; ///< start of the name of the type
   int              n_nodes;
   Use              use;
   int              gmsh_type;
-  std::vector<int> order; ///< of the nodes that are taken
+  std::vector<int> order; ///< of the nodes used
 };
 
-/// The kind of elements of a type in capitals, variants (C3D10M, C3D8R, ...) included; null if they are not read.
+/// The kind of elements of a type in capitals, including variants (C3D10M, C3D8R, ...); null if they are not supported.
 /// Pyramids are recognised, so that a mesh with pyramids is rejected with their number.
 const InpElementKind *inp_element_kind(const std::string &type);
 

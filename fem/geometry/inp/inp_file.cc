@@ -84,7 +84,7 @@ private:
   void begin(const InpKeyword &keyword)
   {
     end_of_element();
-    if (keyword.name == "INCLUDE") // its lines stand in the place of the keyword
+    if (keyword.name == "INCLUDE") // its lines replace the keyword
     {
       read_file(input_of(keyword, file_));
       return;
@@ -105,7 +105,7 @@ private:
       read_file(input);
   }
 
-  /// Whether a keyword, or what stands below it, says something of the mesh.
+  /// Whether a keyword or its lines describe the mesh.
   static bool is_of_mesh(const std::string &name)
   {
     static const std::set<std::string> known = {
@@ -114,7 +114,7 @@ private:
     return known.count(name) > 0;
   }
 
-  /// Keywords that say of the mesh what is not read.
+  /// Refuses keywords that describe the mesh and are not supported.
   void require_followed(const InpKeyword &keyword)
   {
     const auto       &name = keyword.name;
@@ -231,7 +231,7 @@ private:
     sets.add({set, first, last, step, source_.place + ": " + file_ + ":" + std::to_string(line_)});
   }
 
-  /// Of all sets together, and of all surfaces: each node and element may stand in many.
+  /// Limit of the members of all sets, and of all surfaces: each node and element may be in several.
   std::size_t most_members() const { return 1000000 + 100 * (nodes_.size() + elements_.size()); }
 
   std::size_t whole(const std::string &field) const

@@ -15,7 +15,7 @@ double InpMiddleNodes::nearby(std::size_t node, std::size_t a, std::size_t b) co
   return dot(r, r);
 }
 
-/// Of every middle node in the file's order, the edge it lies on.
+/// The edge on which each middle node lies, in the order of the file.
 std::vector<std::size_t> InpMiddleNodes::edges_of(int gmsh_type, const std::vector<std::size_t> &nodes) const
 {
   const auto              &edges     = inp_edges(gmsh_type);
@@ -27,7 +27,7 @@ std::vector<std::size_t> InpMiddleNodes::edges_of(int gmsh_type, const std::vect
     { return nearby(nodes[n_corners + k], nodes[edges[edge][0]], nodes[edges[edge][1]]); };
     std::size_t nearest = k;
     for (std::size_t edge = 0; edge < edges.size(); ++edge)
-      if (distance(edge) < 0.99 * distance(nearest)) // equal but for the digits of the file
+      if (distance(edge) < 0.99 * distance(nearest)) // equal up to the digits of the file
         nearest = edge;
     result.push_back(nearest);
   }

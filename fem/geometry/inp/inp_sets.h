@@ -9,7 +9,7 @@
 namespace gestell::fem
 {
 
-/// Named sets of numbers, which may name other sets.
+/// Named sets of numbers, which may contain other sets by name.
 class InpSets
 {
 public:
@@ -20,7 +20,7 @@ public:
   {
     std::string set;
     std::size_t first, last, step;
-    std::string place; ///< heads messages
+    std::string place; ///< prefix of messages
   };
   void add(Range range) { ranges_.push_back(std::move(range)); }
 
@@ -31,17 +31,18 @@ public:
    * The numbers of a set, including those of the sets that it names: ascending, each once; none for an unknown set.
    * Later additions are not included.
    *
-   * @throws std::invalid_argument for a set that names itself, also by way of others, for sets nested more than 200
-   * levels deep, and for more members than allowed.
+   * @throws std::invalid_argument for a set that contains itself, directly or through others, for sets nested more than
+   * 200 levels deep, and for more members than allowed.
    */
   const std::vector<std::size_t> &members(const std::string &set);
 
   /**
    * Resolves the ranges when all nodes and elements are known.
    *
-   * @param n_there  how many `things`, nodes or elements, there are
-   * @param most     members of all sets together, counted wherever they are named: a short file can name very many
-   * @throws std::invalid_argument for a range of more than there are, and beyond `most`.
+   * @param n_there  number of `things`, nodes or elements
+   * @param most     limit of the members of all sets together, counted at every occurrence: a short file can have very
+   *   many
+   * @throws std::invalid_argument for a range that exceeds this number, and beyond `most`.
    */
   void close(std::size_t n_there, const std::string &things, std::size_t most);
 
@@ -59,7 +60,7 @@ private:
 
   std::map<std::string, Set> sets_;
   std::vector<Range>         ranges_;
-  std::vector<std::string>   open_; ///< names of those being resolved
+  std::vector<std::string>   open_; ///< names of sets being resolved
   std::size_t                most_ = static_cast<std::size_t>(-1), n_members_ = 0;
 };
 

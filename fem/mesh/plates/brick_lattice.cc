@@ -20,7 +20,7 @@ std::vector<double> planes_of(std::vector<double> levels, double tolerance)
   return planes;
 }
 
-/// Fills the bricks of one solid: along a column its faces take turns at letting in and out.
+/// Fills the bricks of one solid: along a column its faces alternately enter and leave it.
 class Filling
 {
 public:

@@ -11,7 +11,7 @@ namespace gestell::fem
 
 using Index3 = std::array<int, 3>;
 
-/// Bricks around holes, which together are swept along a direction: no plane goes on through them across it.
+/// Bricks around holes that are swept together along a direction: no plane normal to the other directions divides them.
 struct SweptRegion
 {
   int              direction = 0;
@@ -20,7 +20,7 @@ struct SweptRegion
 };
 
 /**
- * Bricks between all planes of the faces, and to which solid each belongs.  Coordinates are those of the solids' axes.
+ * Bricks between all planes of the faces, with the solid of each.  Coordinates are those of the solids' axes.
  */
 struct BrickLattice
 {
@@ -37,7 +37,7 @@ struct BrickLattice
     const int nx = n(0), ny = n(1), row = static_cast<int>(brick / nx);
     return {static_cast<int>(brick % nx), row % ny, row / ny};
   }
-  /// Of a place beyond the lattice -1.
+  /// -1 outside the lattice
   int at(const Index3 &i) const
   {
     for (int d = 0; d < 3; ++d)
@@ -45,18 +45,18 @@ struct BrickLattice
         return -1;
     return solid[index(i)];
   }
-  /// Whether planes across the direction may divide the brick.
+  /// Whether planes normal to the direction may divide the brick.
   bool is_divided(std::size_t brick, int direction) const
   {
     return solid[brick] >= 0 && (region[brick] < 0 || regions[region[brick]].direction == direction);
   }
   double width(int direction, int i) const { return planes[direction][i + 1] - planes[direction][i]; }
-  /// The plane at that height; -1: none.
+  /// The plane at this level; -1: none.
   int plane_at(int direction, double level) const;
 };
 
 /// @param more  levels of further planes, for each direction [m]
-/// @throws NotSwept where solids overlap, or planes make more bricks than are sensible.
+/// @throws NotSwept if solids overlap, or for too many bricks.
 BrickLattice brick_lattice(const PlateSolids &solids, double diagonal,
                            const std::array<std::vector<double>, 3> &more = {});
 

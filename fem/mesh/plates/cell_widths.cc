@@ -48,7 +48,7 @@ std::vector<double> cell_limits(const Sheet &sheet, double size, int layers, boo
   constexpr double along_edge = 0.7;      // width of the cell along an edge, of the thickness of the wall
   constexpr double narrowest  = 1. / 16.; // width of the cell along an edge, of the size of cells
   const double     edge       = std::min(along_edge * sheet.thickness, narrowest * size);
-  constexpr double at_minor   = 3.; // times as wide along a plane beyond which most goes on
+  constexpr double at_minor   = 3.; // times as wide at a plane across which most material continues
   const auto       within     = [&](bool minor) { return minor ? at_minor * edge : edge; };
   Growing          low{within(sheet.mostly_goes_on[0])}, high{within(sheet.mostly_goes_on[1])};
   const bool       is_wall = sheet.width() <= sheet.thickness * (1. + rounding);
@@ -57,7 +57,7 @@ std::vector<double> cell_limits(const Sheet &sheet, double size, int layers, boo
 
   const double     amid   = sheet.width() - low.along.back() - high.along.back();
   const double     narrow = std::min(low.next, high.next) / growth;
-  constexpr double jump   = 4.; // from the narrow cells to those amid them, as from cell to cell
+  constexpr double jump   = 4.; // from narrow cells to those between, as between two cells
   const double     wide   = low.along.size() + high.along.size() > 2 ? std::min(size, jump * narrow) : size;
   constexpr double thick  = 1. / 4.; // of the size: such walls have two cells through them
   const int        least  = !is_wall ? 1 : std::max(layers, sheet.width() > thick * size ? 2 : 1);

@@ -21,7 +21,7 @@ constexpr int    points_of_curves = 64;   // that bound a face
 
 using Axes = std::array<Vector3, 3>;
 
-/// All faces of the solids, those between two of them, too.
+/// All faces of the solids, including those between two solids.
 std::vector<Face> all_faces(const CadModel &model)
 {
   std::vector<Face> faces = model.faces;
@@ -105,7 +105,7 @@ std::vector<int> ends_of(int curve)
   return points;
 }
 
-/// Edges that hang together by their ends.
+/// Groups of edges that are connected at their ends.
 std::vector<std::vector<int>> loops_of(const std::vector<int> &edges)
 {
   std::vector<std::pair<std::set<int>, std::vector<int>>> loops; // ends, edges
@@ -165,7 +165,7 @@ public:
   }
 
 private:
-  /// -1: it stands at right angles to none.
+  /// The axis that is normal to the face; -1 if there is none.
   int direction_of(const Face &face) const
   {
     for (int d = 0; d < 3; ++d)
@@ -244,7 +244,7 @@ private:
   {
     int           face;
     std::set<int> edges;
-    std::set<int> walls; // tags of the faces that stand on it
+    std::set<int> walls; // tags of the adjacent faces
   };
 
   /// Openings of holes, two to each: they share their walls.
@@ -349,10 +349,10 @@ private:
       }
       curves.erase(next);
     }
-    hole.sides.back()[1] = hole.sides.front()[0]; // but for rounding
+    hole.sides.back()[1] = hole.sides.front()[0]; // equal up to rounding
   }
 
-  /// As many as turn by the angle between sides of a regular polygon; an even number.
+  /// Number of sides for the rotation of the tangent along an edge, as of a regular polygon; even.
   int sides_along(int edge) const
   {
     if (is_line(edge))

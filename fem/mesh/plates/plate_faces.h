@@ -10,7 +10,7 @@
 namespace gestell::fem
 {
 
-/// Reason and location why a solid is not swept; a sentence of a note.
+/// Reason and location why a solid cannot be swept; a sentence of a note.
 class NotSwept : public std::runtime_error
 {
 public:
@@ -27,8 +27,8 @@ struct FaceLoop
   std::vector<Side> sides; ///< curves as polygons [m]
 };
 
-/// A face at right angles to an axis of its solids.  Of a point (x0 x1 x2) in these axes the coordinates in the face
-/// are x_(d + 1) and x_(d + 2), counted modulo 3.
+/// A face normal to an axis of its solids.  A point (x0 x1 x2) in these axes has the coordinates x_(d + 1) and x_(d +
+/// 2) in the face, counted modulo 3.
 struct PlateFace
 {
   int                   tag       = 0;
@@ -38,7 +38,7 @@ struct PlateFace
   Point2                min{}, max{};
 };
 
-/// A hole straight through material: its walls are parallel to an axis.
+/// A straight hole through material, with walls parallel to an axis.
 struct PlateHole
 {
   int               direction = 0; ///< of its axis
@@ -48,23 +48,22 @@ struct PlateHole
   Point2            min{}, max{};
 };
 
-/// Solids all of whose faces stand at right angles to three axes, but for the walls of holes.
+/// Solids with all faces normal to three axes, except the walls of holes.
 struct PlateSolids
 {
   std::array<Vector3, 3>        axes; ///< right-handed, of unit length
   std::vector<PlateFace>        faces;
   std::vector<std::vector<int>> of_solid; ///< into faces
-  std::vector<PlateHole>        holes;    ///< none of the loops of faces is one of theirs
+  std::vector<PlateHole>        holes;    ///< their loops are not among those of faces
 
-  /// Whether a point of the plane of a face lies within it, by the sides that a ray crosses.
+  /// Whether a point of the plane of a face is inside it, by the number of sides that a ray crosses.
   static bool contains(const PlateFace &face, const Point2 &x);
 };
 
 /**
- * The faces of the solids in gmsh in axes of their own, those along which most of their area looks.
+ * The faces of the solids in gmsh in their own axes, the normals of most of their area.
  *
- * @throws NotSwept with the first face that is neither at right angles to an axis nor the wall of a hole straight
- *         through material.
+ * @throws NotSwept with the first face that is neither normal to an axis nor the wall of a straight through hole.
  */
 PlateSolids plate_solids(const CadModel &model);
 

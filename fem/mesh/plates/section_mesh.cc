@@ -15,7 +15,7 @@ namespace gestell::fem
 namespace
 {
 
-/// A model of gmsh beside the one that is current, for as long as this lives.
+/// A second model of gmsh for the lifetime of this object; the current model is restored after it.
 class ModelAside
 {
 public:
@@ -24,7 +24,7 @@ public:
     gmsh::model::getCurrent(before_);
     gmsh::option::getNumber("Mesh.Algorithm", algorithm_);
     gmsh::model::add("section of a plate");
-    constexpr double frontal_delaunay = 6.; // number of gmsh; that of quadrilaterals, 8, crashes in 4.8
+    constexpr double frontal_delaunay = 6.; // number of gmsh; 8, for quadrilaterals, crashes in 4.8
     gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay);
   }
   ~ModelAside()
@@ -150,8 +150,8 @@ private:
   double                                scale_ = 0.;
   std::vector<Point2>                   given_;
   std::vector<int>                      point_;   // gmsh's tags
-  std::map<std::pair<int, int>, Point2> between_; // points given amid two others
-  std::map<std::pair<int, int>, int>    amid_;    // points amid two others
+  std::map<std::pair<int, int>, Point2> between_; // points given in the middle of two others
+  std::map<std::pair<int, int>, int>    amid_;    // points in the middle of two others
 };
 
 } // namespace

@@ -8,7 +8,7 @@
 namespace gestell::fem
 {
 
-/// Plane mesh in quadrilaterals, counterclockwise.
+/// Plane mesh of quadrilaterals, counterclockwise.
 struct SectionMesh
 {
   std::vector<Point2>             points;
@@ -16,13 +16,14 @@ struct SectionMesh
 };
 
 /**
- * Meshes the area within an outline around holes; each side is one side of a cell.  gmsh meshes between every second
- * point, in a model of its own beside the others, in quadrilaterals and triangles; these are divided into four and
- * three about their middles, and what was left out of the outline is put where it was given.  So there are
- * quadrilaterals alone: deal.II 9.4 goes out of its memory where it numbers hexahedra with prisms among them.
+ * Meshes the area between an outline and holes; each side is one side of a cell.  gmsh meshes between every second
+ * point with quadrilaterals and triangles, in a separate model.  These are divided into four or three cells about their
+ * centres, and the omitted points of the outline are moved to their given positions.  The result contains only
+ * quadrilaterals, because deal.II 9.4 writes out of bounds when it numbers mixed meshes of hexahedra and prisms.
  *
- * @param outline  an even number of points around it, corners of the area at even places [m]; of holes alike
- * @throws NotSwept where gmsh cannot
+ * @param outline  an even number of points around it, with corners of the area at even indices [m]; the same applies to
+ *   holes
+ * @throws NotSwept if gmsh fails
  */
 SectionMesh section_mesh(const std::vector<Point2> &outline, const std::vector<std::vector<Point2>> &holes);
 

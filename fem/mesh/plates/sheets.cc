@@ -46,7 +46,7 @@ private:
     return ++i[along] < lattice_.n(along) ? static_cast<int>(lattice_.index(i)) : -1;
   }
 
-  // The facet below each brick has the number of the brick; those of the topmost plane are cut anyway.
+  // The facet below each brick has the number of the brick; facets in the topmost plane are always cut.
   bool is_cut(std::size_t brick) { return needed_[root(facets_, static_cast<int>(brick))] != 0; }
 
   int below(std::size_t brick) const
@@ -84,7 +84,7 @@ private:
     }
   }
 
-  /// Of the plane below a brick.
+  /// Whether most of the plane below a brick lies within material.
   bool mostly_goes_on(int brick)
   {
     const int in = root(facets_, brick);
@@ -121,7 +121,7 @@ private:
 
   const BrickLattice &lattice_;
   int                 d_;
-  std::vector<int>    facets_;        // joined where one cut goes on into the next
+  std::vector<int>    facets_;        // joined where one cut continues into the next
   std::vector<char>   needed_;        // of the root
   std::vector<double> faces_, inner_; // area on faces and within material, of the root [m^2]
 };

@@ -86,8 +86,8 @@ private:
             cell_limits(sheets_.across[d][s], largest[d][s], options_.layers, even.count({d, int(s)}) > 0));
   }
 
-  /// Direction and number of those that end in points of an outline: all of an outline's sides have an even number of
-  /// cells, which quadrilaterals alone ask for.
+  /// Direction and number of the sheets that end at an outline: every side of an outline has an even number of cells,
+  /// as quadrilaterals require.
   std::set<std::pair<int, int>> sheets_beside_regions() const
   {
     std::set<std::pair<int, int>> nearby;
@@ -108,7 +108,7 @@ private:
     return nearby;
   }
 
-  /// Filled ones whose side lies on the face.
+  /// Filled bricks with a side on the face.
   std::vector<std::size_t> bricks_at(const PlateFace &face) const
   {
     const int                d = face.direction, a = (d + 1) % 3, b = (d + 2) % 3;
@@ -130,7 +130,7 @@ private:
     return bricks;
   }
 
-  /// What fills a hole or stands in no lattice must not be lost.
+  /// Requires that no material is lost in a filled hole or outside the lattice.
   void check_volumes() const
   {
     const Mesh         &mesh = result_.mesh;
@@ -195,7 +195,7 @@ private:
         }
   }
 
-  /// Levels at which the cells beside a region meet one of its sides, along it; all of its layers must agree.
+  /// Levels at which the cells next to a region meet one of its sides; all of its layers must agree.
   std::vector<double> levels_beside(const SweptRegion &region, int across, bool at_end, int along) const
   {
     const int        d = region.direction;
@@ -230,7 +230,7 @@ private:
     return any ? levels : divided(levels.front(), levels.back());
   }
 
-  /// Of a side with nothing beside it.
+  /// Levels on a side without adjacent cells.
   std::vector<double> divided(double from, double to) const
   {
     const int           n = 2 * std::max(1, static_cast<int>(std::ceil(0.5 * (to - from) / options_.size)));
@@ -260,7 +260,7 @@ private:
     return points;
   }
 
-  /// Sections of the holes of a region: those through several solids stand upon each other and are one.
+  /// Sections of the holes of a region: coincident holes through several solids count as one.
   std::vector<std::vector<Point2>> sections(const SweptRegion &region) const
   {
     const int                        d = region.direction;
@@ -359,7 +359,7 @@ private:
     return wall_at(centre);
   }
 
-  /// The wall of a hole of which the middle of a cell's side is the middle of a side of the section.
+  /// The wall of a hole whose section has a side with this midpoint.
   int wall_at(const Vector3 &centre) const
   {
     for (const PlateHole &hole : solids_.holes)

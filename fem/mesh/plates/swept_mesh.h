@@ -11,11 +11,11 @@ namespace gestell::fem
 {
 
 /**
- * Mesh of the solids in gmsh in hexahedra that follow the walls they are made of: bricks between the planes of their
- * faces, as far as a plane cuts them, divided as in cell_limits() up to mesh.size.
+ * Mesh of the solids in gmsh with hexahedra that follow their walls: bricks between the planes of their faces, where
+ * such a plane divides them, subdivided by cell_limits() up to mesh.size.
  *
- * @param selection  tags of the faces of the named surfaces; those with a size have no larger cells
- * @throws NotSwept what cannot be divided so, std::invalid_argument as extract_mesh().
+ * @param selection  tags of the faces of the named surfaces; a size of a surface limits its cells
+ * @throws NotSwept with the obstacle, std::invalid_argument as extract_mesh() does.
  */
 ExtractedMesh swept_mesh(const CadModel &model, const Selection &selection, const FrameSpecification &specification,
                          const MeshOptions &options);

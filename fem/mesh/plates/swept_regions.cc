@@ -65,7 +65,7 @@ std::vector<Box> united(const std::vector<Box> &boxes)
   return result;
 }
 
-/// Whether the plate fills the box, holes apart, and nothing stands on it there.
+/// Whether the plate fills the box, except for holes, and nothing adjoins it there.
 bool is_plate(const BrickLattice &lattice, const Box &box)
 {
   const int d = box.direction;

@@ -6,10 +6,10 @@ namespace gestell::fem
 {
 
 /**
- * Makes a lattice whose bricks around every hole are a region of their own: a box about the hole that reaches into the
- * plate around it by three quarters of its half width, or less where there is less room.
+ * Creates a lattice in which the bricks around every hole form a separate region: a box around the hole that extends
+ * into the plate by three quarters of its half width, or less if there is less space.
  *
- * @throws NotSwept where a hole leaves no plate around it, or something stands on the plate right beside it.
+ * @throws NotSwept if there is no plate around a hole, or something is on the plate directly next to it.
  */
 BrickLattice lattice_with_regions(const PlateSolids &solids, double diagonal);
 

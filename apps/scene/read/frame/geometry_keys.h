@@ -5,8 +5,8 @@
 namespace gestell::apps
 {
 
-/// Keys of [frame] from CAD or a mesh, or already reduced; of its `mesh`, beside patterns of names; of
-/// [frame.surface.NAME] and so on.
+/// Keys of [frame] from CAD or a mesh, or already reduced; of its `mesh`, in addition to patterns of names; of
+/// [frame.surface.NAME] and the other tables.
 const std::vector<Key> &frame_keys();
 const std::vector<Key> &mesh_keys();
 const std::vector<Key> &surface_keys();

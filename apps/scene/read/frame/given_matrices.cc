@@ -31,7 +31,7 @@ Eigen::MatrixXd dense(const std::vector<std::vector<double>> &rows)
   return result;
 }
 
-/// What a reader says against a file, at the key that names it.
+/// Calls `read` and reports its std::invalid_argument at the key that names the file.
 template <typename Read>
 auto at_key(const SceneTable &frame, const std::string &key, const Read &read)
 {
@@ -133,7 +133,7 @@ std::string text_of_some(const std::vector<RowLabel> &rows)
   return text + (rows.size() > 3 ? "; ..." : "");
 }
 
-/// Of `of` those that are not in `in`.
+/// The rows of `of` that are not in `in`.
 std::vector<RowLabel> missing_rows(const std::vector<RowLabel> &of, const std::vector<RowLabel> &in)
 {
   const std::vector<int> place = places_of(of, in);
@@ -144,7 +144,7 @@ std::vector<RowLabel> missing_rows(const std::vector<RowLabel> &of, const std::v
   return missing;
 }
 
-/// Rows of mass or damping join those of the stiffness.
+/// Appends rows that only the mass or the damping has to the rows of the stiffness.
 void join_rows(const SceneTable &frame, const std::string &key, const std::vector<RowLabel> &stiff,
                const LabelledMatrix &other, std::vector<RowLabel> &rows)
 {
@@ -222,7 +222,7 @@ void unite(const SceneTable &frame, LabelledMatrix &M, LabelledMatrix &C, std::o
     given.B = in_si("damping", *B, energy * units.time);
 }
 
-/// By which the entries of files may be off, as shares of them.
+/// Relative rounding of the entries in the files.
 struct Roundings
 {
   double of_mass, of_damping;
@@ -242,7 +242,7 @@ void check(const SceneTable &frame, const GivenMatrices &given, const Roundings 
   };
   magnitude("mass", given.M);
   magnitude("stiffness", given.C);
-  require_positive_diagonal(frame, "stiffness", given.C, given.rows); // by the factor all of it is judged later
+  require_positive_diagonal(frame, "stiffness", given.C, given.rows); // its signs are checked when it is factorised
   if (given.B)
   {
     magnitude("damping", *given.B);
@@ -251,7 +251,7 @@ void check(const SceneTable &frame, const GivenMatrices &given, const Roundings 
   check_mass(frame, given.M, rounding.of_mass, given.C, given.rows);
 }
 
-/// Damping that the files hold and the scene does not name.
+/// Warns of damping in the files that the scene does not use.
 void tell_left_damping(const SceneTable &frame, const MatrixFiles &files)
 {
   if (frame.has("damping"))
@@ -269,7 +269,7 @@ void tell_left_damping(const SceneTable &frame, const MatrixFiles &files)
                                 "damping = { ratio = ... } at half the loss factor");
 }
 
-/// Files of matrices that hold nodes too, each once.
+/// The matrix files that also contain nodes, each once.
 std::vector<std::string> models_beside(const SceneTable &frame)
 {
   std::vector<std::string> models;

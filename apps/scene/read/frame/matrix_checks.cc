@@ -131,7 +131,7 @@ double rounding_of(const Sparse &A)
     for (Sparse::InnerIterator a(A, j); a; ++a)
       if (most = std::max(most, digits_of(a.value())); most >= 10)
         return least_rounding;
-  constexpr double worst_rounding = 5e-5; // of 5 digits, those of Nastran's small fields
+  constexpr double worst_rounding = 5e-5; // rounding to 5 digits, as in short fields of Nastran
   return std::min(0.5 * std::pow(10., 1 - most), worst_rounding);
 }
 

@@ -11,32 +11,32 @@
 namespace gestell::apps
 {
 
-/// "row 5", or "row 5 (node 12, uz)" where that is known.
+/// "row 5", or "row 5 (node 12, uz)" if that is known.
 std::string row_text(Eigen::Index row, const std::vector<coupling::RowLabel> &rows);
 
-/// Refuse what no frame has, with the key and the row: `key` is that of the matrix, `rows` what its rows are, if known.
+/// Reject matrices that no frame can have, with key and row: `key` is that of the matrix, `rows` its rows, if known.
 /// @throws std::invalid_argument
 void check_symmetry(const SceneTable &frame, const std::string &key, const Eigen::SparseMatrix<double> &A,
                     const std::vector<coupling::RowLabel> &rows);
-/// Products of the largest entries must stay numbers.
+/// Products of the largest entries must be finite.
 void check_magnitude(const SceneTable &frame, const std::string &key, const Eigen::SparseMatrix<double> &A);
 void require_positive_diagonal(const SceneTable &frame, const std::string &key, const Eigen::SparseMatrix<double> &A,
                                const std::vector<coupling::RowLabel> &rows);
-/// By how much an entry may be rounded, as a share of it: half a unit of ten digits and more.
+/// Relative rounding of an entry: half a unit of the tenth digit.
 constexpr double least_rounding = 5e-10;
-/// The same of a matrix as its file has it, by the digits of the entry that has most; no less than that of ten digits
-/// and no more than that of five.
+/// The rounding of a matrix in its file, from the entry with the most digits; limited to between that of five and that
+/// of ten digits.
 double rounding_of(const Eigen::SparseMatrix<double> &A);
 /**
- * Refuses a matrix by which some motion has negative energy; coordinates without an own entry may be, as rotations of
- * lumped masses are.
+ * Rejects a matrix with which some motion has negative energy; coordinates with empty rows are accepted, such as
+ * rotations of lumped masses.
  *
- * Scaled to unit diagonal, entries rounded by a share e move its eigenvalues by no more than e max_i sum_j |a_ij|
- * (Gershgorin).  A matrix that is semidefinite within that is taken, up to a hundred times as much with a warning.
+ * After scaling to unit diagonal, entries with the relative rounding e change eigenvalues by at most e max_i sum_j
+ * |a_ij| (Gershgorin).  A matrix that is semidefinite within this limit is accepted, up to 100 times with a warning.
  */
 void check_semidefinite(const SceneTable &frame, const std::string &key, const Eigen::SparseMatrix<double> &A,
                         double rounding, const std::vector<coupling::RowLabel> &rows);
-/// Besides, each row needs mass or stiffness.
+/// Also requires mass or stiffness in each row.
 void check_mass(const SceneTable &frame, const Eigen::SparseMatrix<double> &M, double rounding,
                 const Eigen::SparseMatrix<double> &C, const std::vector<coupling::RowLabel> &rows);
 

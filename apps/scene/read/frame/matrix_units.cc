@@ -11,7 +11,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Sides of the box of all nodes, or of all interfaces where there are no others [m].
+/// Sides of the bounding box of the points and all interfaces [m].
 std::array<double, 3> box_of(std::vector<std::array<double, 3>> points, const std::vector<fem::Interface> &interfaces)
 {
   for (const auto &interface : interfaces)
@@ -127,7 +127,7 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
   const auto       sides            = box_of(frame.picture.points, frame.interfaces);
   const double     size             = *std::max_element(sides.begin(), sides.end());
   constexpr double largest_frame    = 1e3; // [m] no frame is larger; one of 1 m in millimetres is at the limit
-  constexpr double fastest_of_nodes = 6e4; // [m/s] ten times that of metals: of lumped masses, from node to node
+  constexpr double fastest_of_nodes = 6e4; // [m/s] ten times the wave speed of metals, from node to node
   if (const double speed = wave_speed(frame, nodes); speed > fastest_of_nodes && size <= largest_frame)
     suspicions.push_back(
         text_of({"waves run from node to node with ",
@@ -151,12 +151,12 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
                                     " kg/m^3: are masses in tonnes? They must be in kg, so that stiffness in N/m fits"},
                                    density));
     else if (density > heaviest_metal &&
-             frame.picture.points.size() > frame.interfaces.size()) // interfaces alone bound no frame
+             frame.picture.points.size() > frame.interfaces.size()) // interfaces alone do not bound a frame
       suspicions.push_back(text_of({"the frame is heavier than any metal that fills its box, ",
                                     " kg/m^3: check the units of mass (kg) and of positions (m)"},
                                    density));
   }
-  constexpr double longest_bending  = 100.; // [m] larger than a frame; moments in N mm make 1000 of 1
+  constexpr double longest_bending  = 100.; // [m] larger than any frame; moments in N mm make 1000 m of 1 m
   constexpr double shortest_bending = 1e-4; // [m] a tenth of a millimetre: no part is thinner
   for (const auto &interface : frame.interfaces)
     if (const double length = bending_length(frame, interface);

@@ -8,7 +8,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Those of frames from geometry, where they stand.
+/// The interfaces of a frame from geometry, at their positions in the frame.
 std::vector<fem::InterfaceSpecification> interfaces_of(const FrameRequest &frame)
 {
   return frame.source == FrameSource::parts ? coupling::interfaces_in_frame(frame.parts) : frame.geometry.interfaces;
@@ -104,7 +104,7 @@ public:
   }
 
 private:
-  std::map<std::string, Vector3> nodes_; // by their markers: positions asked for [m]
+  std::map<std::string, Vector3> nodes_; // markers of nodes, with the position used [m]
   std::string                    place_;
 };
 
@@ -114,7 +114,7 @@ bool tells_rotation(const std::string &path, const std::string &marker)
   return path.rfind(marker + ".r", 0) == 0;
 }
 
-/// Angles of nodes that are asked for.
+/// Refuses signals that are angles of nodes.
 void look_at_signals(const Scene &scene, Search &search)
 {
   for (const auto &interface : interfaces_of(scene.frame))

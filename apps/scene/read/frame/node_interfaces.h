@@ -6,10 +6,10 @@ namespace gestell::apps
 {
 
 /**
- * Interfaces of coupling "node" move, but do not turn: refuses what would act on their rotation or follow it, and
- * points that lie off them.
+ * Interfaces of coupling "node" have displacements, but no rotations: rejects objects that act on their rotation or
+ * depend on it, and points away from them.
  *
- * @throws std::invalid_argument with the place of what asks for a rotation.
+ * @throws std::invalid_argument with the location of the object that needs a rotation.
  */
 void refuse_rotations_of_nodes(const Scene &scene);
 

@@ -6,7 +6,7 @@
 namespace gestell::apps
 {
 
-/// How a frame is damped: by ratios of its modes, or after Rayleigh by B = alpha M + beta C.
+/// Damping of a frame: ratios of its modes, or Rayleigh damping B = alpha M + beta C.
 struct FrameDamping
 {
   fem::ModalRatios ratios;
@@ -17,7 +17,7 @@ struct FrameDamping
 /// 0.02]] } by frequency, or { rayleigh = [{ frequency, ratio }, { frequency, ratio }] }.
 FrameDamping read_damping(const SceneTable &damping);
 
-/// Of that table.
+/// Keys of that table.
 const std::vector<Key> &damping_keys();
 
 } // namespace gestell::apps

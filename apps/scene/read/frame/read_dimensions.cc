@@ -22,7 +22,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// `NAME = ...;` at the begin of a line: where its name and its value stand.
+/// `NAME = ...;` at the start of a line: its name and the places of its value.
 struct Assignment
 {
   std::string name;
@@ -57,7 +57,7 @@ std::vector<Assignment> assignments_of(const std::string &script)
   return all;
 }
 
-/// In the unit of the script.
+/// Value of a dimension in the unit of the script.
 double in_script(const SceneTable &dimensions, const std::string &name, double unit)
 {
   const Quantity quantity = dimensions.quantity(name);
@@ -92,7 +92,7 @@ bool holds(const fs::path &file, const std::string &text)
   return in && content.str() == text;
 }
 
-/// Of this process, and gone with it: where there is no cache of the user's own, or none to write into.
+/// Temporary folder of this process, deleted at its end; used if there is no cache folder or it cannot be written to.
 const fs::path &own_folder()
 {
   static const fem::TemporaryDirectory folder;

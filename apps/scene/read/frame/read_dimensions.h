@@ -8,9 +8,9 @@ namespace gestell::apps
 {
 
 /**
- * The script (.geo) with the dimensions of `frame` in the places of its own: of each the first line `NAME = ...;` is
- * written anew.  Lengths are given in the unit of the script, plain numbers as they are.  The copy is kept beside the
- * cache of frames under a name of its content, so that equal dimensions are one file.
+ * Copy of the script (.geo) with the dimensions of `frame`: the first line `NAME = ...;` of each is replaced.  Lengths
+ * are converted to the unit of the script, plain numbers are unchanged.  The copy is stored next to the cache of
+ * frames, named by a hash of its content, so that equal dimensions share one file.
  *
  * @param cad   path of the script
  * @param unit  its length unit [m]; 0: metre

@@ -13,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-/// The mechanism acts on nodes with six motions, of which fields over a face know nothing.
+/// Refuses flexible interfaces: the mechanism acts on nodes with six DOFs, which flexible faces lack.
 void refuse_flexible(const fem::FrameSpecification &frame)
 {
   for (const fem::InterfaceSpecification &interface : frame.interfaces)

@@ -12,10 +12,10 @@ namespace gestell::apps
 /// Reads [frame], and [material.NAME] for it.
 FrameRequest read_frame(const SceneTable &scene);
 
-/// [frame] of a frame made from CAD or a mesh.
+/// Reads [frame] of a frame made from CAD or a mesh.
 fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const SceneTable &scene);
 
-/// [frame] of several parts and their joints.
+/// Reads [frame] of several parts and their joints.
 coupling::FrameOfParts read_frame_parts(const SceneTable &frame, const SceneTable &scene);
 
 /// Keys of [frame] of several parts; of [frame.part.NAME], with those of a frame from geometry; of [frame.joint.NAME].
@@ -23,7 +23,7 @@ const std::vector<Key> &parts_frame_keys();
 const std::vector<Key> &frame_part_keys();
 const std::vector<Key> &frame_joint_keys();
 
-/// [frame] of a frame given by matrices; has_translations says whether `translations` were given or could be derived.
+/// Reads [frame] given by matrices; has_translations: whether `translations` were given or could be derived.
 fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_translations);
 
 std::vector<std::string> interface_names(const FrameRequest &frame);

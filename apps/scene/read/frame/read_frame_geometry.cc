@@ -157,7 +157,7 @@ fem::InterfaceSpecification read_interface(const SceneTable &any, const fem::Fra
   if (!node || table.has("surface") || table.has("surfaces"))
     interface.surfaces = read_surface_names(table, frame);
   if (point || node)
-    table.vector("position"); // demanded
+    table.vector("position"); // required
   if (table.has("radius") && !point)
     throw table.error("radius", "belongs to coupling = \"point\"; other interfaces take the whole of their surfaces");
   if (point)
@@ -174,7 +174,7 @@ fem::CutSpecification read_cut(const SceneTable &any)
   return {table.name(), plane.vector("through"), plane.direction("normal"), table.place()};
 }
 
-/// '*' stands for any letters, '?' for one.
+/// '*' matches any letters, '?' one letter.
 bool matches(const std::string &pattern, const std::string &name, std::size_t p = 0, std::size_t n = 0)
 {
   if (p == pattern.size())

@@ -94,7 +94,7 @@ const TableNode &node_at(const SceneTable &table, const FrameNodes &nodes)
   return nearest;
 }
 
-/// By `node` or `position`, of matrices whose rows are known.
+/// Reads an interface by `node` or `position`; the rows of the matrices are known.
 void read_node(const SceneTable &table, const FrameNodes &nodes, fem::Interface &interface)
 {
   const TableNode &node = table.has("node") ? node_of_number(table, nodes) : node_at(table, nodes);
@@ -188,7 +188,7 @@ std::vector<fem::Interface> read_matrix_interfaces(const SceneTable &frame, cons
   return interfaces;
 }
 
-/// Those of x, y, z that a support has tables of.
+/// The directions x, y, z for which a support has tables.
 std::vector<std::string> directions_of(const SceneTable &support)
 {
   std::vector<std::string> directions;
@@ -255,7 +255,7 @@ Eigen::MatrixXd read_translations(const SceneTable &frame, const fem::FrameMatri
   return R;
 }
 
-/// [kg] as given, or by the rigid translations if those of all rows are known; else 0.
+/// Mass of the frame [kg]: as given, or from the rigid translations if these are known for all rows; otherwise 0.
 double total_mass(const SceneTable &frame, const fem::FrameMatrices &matrices, bool has_translations)
 {
   if (!has_translations && !frame.has("total_mass"))
@@ -264,7 +264,7 @@ double total_mass(const SceneTable &frame, const fem::FrameMatrices &matrices, b
   return frame.value_or("total_mass", mass.diagonal().maxCoeff());
 }
 
-/// By the places of all nodes that have rows; tells what was found, and warns of what does not fit.
+/// Computes the rigid motions from the positions of all nodes that have rows; states the result and warns.
 void prove_rigid_motions(const SceneTable &frame, fem::FrameMatrices &matrices, const GivenMatrices &given,
                          const FrameNodes &nodes)
 {

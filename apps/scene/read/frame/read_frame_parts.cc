@@ -28,7 +28,7 @@ std::vector<Key> without_reduced(std::vector<Key> keys)
 
 } // namespace
 
-/// Keys of [frame] of several parts; of [frame.part.NAME], with those of a frame from geometry; of [frame.joint.NAME].
+/// Keys of [frame] of several parts, followed by those of [frame.part.NAME] and [frame.joint.NAME].
 const std::vector<Key> &parts_frame_keys()
 {
   static const std::vector<Key> keys = {

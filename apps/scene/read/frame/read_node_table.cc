@@ -22,7 +22,7 @@ const std::vector<std::string> columns{"name", "x", "y", "z", "ux", "uy", "uz", 
 constexpr std::size_t          first_position = 1, first_motion = 4, number_column = 10;
 constexpr double               same_place = 1e-3; // of the extent of the nodes: Nastran's short fields pass
 
-/// Where each of `columns` stands in the table, and the length that positions are in.
+/// The index of each of `columns` in the table, and the unit of length of the positions.
 struct Layout
 {
   std::vector<std::optional<std::size_t>> column = std::vector<std::optional<std::size_t>>(columns.size());
@@ -144,7 +144,7 @@ Eigen::SparseMatrix<double> displacements_by_rows(const std::vector<TableNode> &
   return A;
 }
 
-/// Of matrices whose rows are known: motions of each node, by numbers.
+/// The DOFs of each node, by node number; the rows of the matrices are known.
 std::map<long, TableNode> nodes_of_rows(const std::vector<coupling::RowLabel> &rows)
 {
   std::map<long, TableNode> nodes;
@@ -214,8 +214,8 @@ coupling::ModelNodes model_nodes(const std::string &path, const std::map<long, T
   return model;
 }
 
-/// Largest distance of two places along an axis, or of a place from the origin where that counts: short fields round
-/// by the size of the numbers that they hold.
+/// Largest distance of two positions along an axis, or a share of the largest distance from the origin if that is
+/// larger: rounding of short fields grows with the size of the numbers.
 double extent_of(const coupling::NodePlaces &places)
 {
   double extent = 0., farthest = 0.;
@@ -242,7 +242,7 @@ void require_same_nodes(const FrameNodes &nodes, const coupling::ModelNodes &mod
                                       " in " + file + "; is one of the files of another model, or in other units?");
 }
 
-/// Of nodes whose system of motions both tell.
+/// Checks the axes of nodes for which both files give them.
 void require_same_axes(const FrameNodes &nodes, const coupling::ModelNodes &model, const std::string &file)
 {
   const auto axes_in = [](const std::map<long, Eigen::Matrix3d> &axes, long number) -> Eigen::Matrix3d
@@ -255,7 +255,8 @@ void require_same_axes(const FrameNodes &nodes, const coupling::ModelNodes &mode
                                   file + " (CD); keep one of them");
 }
 
-/// What `nodes` names: a table, or the model of another program, which tells axes too.
+/// Reads `nodes`: a table, or the model of another program.
+/// @return whether the file also gives axes
 bool read_named_nodes(const std::string &path, double length, std::map<long, TableNode> &nodes, FrameNodes &found)
 {
   if (coupling::has_node_places(path))
@@ -274,7 +275,7 @@ bool read_named_nodes(const std::string &path, double length, std::map<long, Tab
   return false;
 }
 
-/// From the files of matrices, which may hold nodes too: axes, and without `nodes` of the scene the places.
+/// Adds the axes of nodes in the matrix files and, if the scene has no `nodes`, their positions.
 void join_models(const GivenMatrices &given, const std::map<long, TableNode> &nodes, bool has_table, bool tells_axes,
                  FrameNodes &found)
 {
@@ -292,7 +293,7 @@ void join_models(const GivenMatrices &given, const std::map<long, TableNode> &no
   }
 }
 
-/// Of matrices whose rows are known.
+/// Nodes of matrices whose rows are known.
 FrameNodes read_known_nodes(const SceneTable &frame, const GivenMatrices &given)
 {
   std::map<long, TableNode> nodes = nodes_of_rows(given.rows);

@@ -11,10 +11,10 @@
 namespace gestell::apps
 {
 
-/// A node of a frame given by matrices, as its table tells it.
+/// A node of a frame given by matrices, from its table.
 struct TableNode
 {
-  fem::Interface motions;    ///< name ("": for pictures only), position, rows counted from 0
+  fem::Interface motions;    ///< name ("": only for pictures), position, rows counted from 0
   std::string    place;      ///< "nodes.csv:12: "
   long           number = 0; ///< in the other program; 0: none
 };
@@ -23,29 +23,29 @@ struct FrameNodes
 {
   std::vector<TableNode> all;
   coupling::NodePlaces   places; ///< [m] of all nodes that have rows; empty unless they and their numbers are known
-  /// Axes of nodes that count their motions in others than the global ones, as columns.
+  /// Local axes of nodes whose motions are not in global axes, as columns.
   std::map<long, Eigen::Matrix3d> axes;
 };
 
 /**
- * Reads the nodes of a frame given by matrices.  `nodes` of [frame] names a table, one line per node, whose head names
- * the columns
+ * Reads the nodes of a frame given by matrices.  `nodes` of [frame] names a table, one line per node, with a header of
+ * columns
  *
  *     name, x [mm], y [mm], z [mm], ux, uy, uz, rx, ry, rz          or          name, node, x [mm], y [mm], z [mm]
  *
- * x, y, z with a unit of length in brackets (that of `file_units` without, m by default); ux ... rz the row of q, from
- * 1, that is this motion, negative where it counts against the axis, empty where there is none; `node` its number,
- * where rows are known by them.  `name` and motions may be left out.  Where rows are known it may be the model of
- * another program as well (read_model_nodes()).  Axes of nodes, and without the key their places, are read from the
- * files of the matrices, where these have nodes; a node that two files name must have one place in both.
+ * x, y, z have a unit of length in brackets (without one that of `file_units`, m by default). ux ... rz are the row of
+ * q, from 1, that is this motion; negative if it is opposite to the axis, empty if there is none. `node` is its number,
+ * if rows are identified by node numbers. `name` and motions are optional. If rows are known, the file may also be the
+ * model of another program (read_model_nodes()). Axes of nodes, and without the key `nodes` their positions, are read
+ * from the files of the matrices, if these contain nodes; a node in two files must have the same position in both.
  *
- * @param n  rows of the matrices.
+ * @param n  number of rows of the matrices.
  */
 FrameNodes read_frame_nodes(const SceneTable &frame, const GivenMatrices &given, Eigen::Index n);
 
-/// What pictures show of the nodes: `triangles`, a table of three or four nodes in each line (by their numbers, or
-/// from 1 in the order of the table), and `node_displacements`, a matrix [3 nodes x n] of their displacements in place
-/// of the rows of the table.
+/// Pictures of the nodes: `triangles`, a table with three or four nodes in each line (by their numbers, or counted from
+/// 1 in the order of the table), and `node_displacements`, a matrix [3 nodes x n] of their displacements, which
+/// replaces the rows of the table.
 fem::Picture read_node_picture(const SceneTable &frame, const FrameNodes &nodes, Eigen::Index n);
 
 } // namespace gestell::apps
