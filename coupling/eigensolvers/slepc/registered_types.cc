@@ -325,7 +325,7 @@ PetscErrorCode set_up_search(EPS eps)
   EPSCheckSinvert(eps);
   PetscCheck(eps->target == 0., PetscObjectComm(PetscObject(eps)), PETSC_ERR_SUP,
              "block-lanczos finds the eigenvalues next to the target 0");
-  if (eps->max_it == PETSC_DEFAULT)
+  if (eps->max_it < 0) // to be determined
     eps->max_it = 1000;
   return make_room(eps, eps->nev);
 }
@@ -382,11 +382,18 @@ PetscErrorCode give_vectors(EPS eps)
   MatrixXd   V;
   PetscCall(guarded(search.caller(), [&] { V = search.lanczos->modes(eps->nconv).V; }));
   const ModeProblem &problem = *search.problem;
-  PetscScalar       *to      = nullptr;
   PetscCall(BVSetActiveColumns(eps->V, 0, eps->nconv));
-  PetscCall(BVGetArray(eps->V, &to));
-  Eigen::Map<MatrixXd>(to, problem.rows(), eps->nconv) = V(problem.free(), Eigen::all);
-  return BVRestoreArray(eps->V, &to);
+  for (PetscInt j = 0; j < eps->nconv; ++j) // the array of a BV may have gaps between columns
+  {
+    Vec          column = nullptr;
+    PetscScalar *to     = nullptr;
+    PetscCall(BVGetColumn(eps->V, j, &column));
+    PetscCall(VecGetArrayWrite(column, &to));
+    Eigen::Map<VectorXd>(to, problem.rows()) = V(problem.free(), j);
+    PetscCall(VecRestoreArrayWrite(column, &to));
+    PetscCall(BVRestoreColumn(eps->V, j, &column));
+  }
+  return 0;
 }
 
 PetscErrorCode destroy_search(EPS eps)
