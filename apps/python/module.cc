@@ -75,7 +75,7 @@ py::object sensitivities_of(const PythonResult &result)
       of_output[py::str(found->keys[k].key)] = output.derivative[Eigen::Index(k)];
     all[py::str(output.output)] = of_output;
   }
-  return std::move(all);
+  return all;
 }
 
 /// Arrays by name; names of several words are tuples.

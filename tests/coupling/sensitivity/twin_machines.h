@@ -51,7 +51,8 @@ struct Twins
         Eigen::VectorXd there = x;
         there[k] += sign * pair.step;
         made.push_back(make(there));
-        (sign < 0. ? pair.minus : pair.plus) = {&made.back().machine, made.back().initial, made.back().signals, end};
+        (sign < 0. ? pair.minus : pair.plus) =
+            MachineTwin{&made.back().machine, made.back().initial, made.back().signals, end};
       }
       twins.push_back(std::move(pair));
     }
