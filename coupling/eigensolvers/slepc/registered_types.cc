@@ -288,8 +288,7 @@ PetscErrorCode solve_by_transformation(ST st, Eigen::Ref<MatrixXd> X)
     PetscCall(VecResetArray(x));
   }
   PetscCall(VecDestroy(&f));
-  PetscCall(VecDestroy(&x));
-  return 0;
+  return VecDestroy(&x);
 }
 
 /// Finds the problem of the operators: one of this program, or one made of PETSc matrices in one process.
@@ -325,8 +324,6 @@ PetscErrorCode set_up_search(EPS eps)
   EPSCheckSinvert(eps);
   PetscCheck(eps->target == 0., PetscObjectComm(PetscObject(eps)), PETSC_ERR_SUP,
              "block-lanczos finds the eigenvalues next to the target 0");
-  if (eps->max_it < 0) // to be determined
-    eps->max_it = 1000;
   return make_room(eps, eps->nev);
 }
 
@@ -381,19 +378,16 @@ PetscErrorCode give_vectors(EPS eps)
   OwnSearch &search = own(eps);
   MatrixXd   V;
   PetscCall(guarded(search.caller(), [&] { V = search.lanczos->modes(eps->nconv).V; }));
-  const ModeProblem &problem = *search.problem;
+  Mat          columns = nullptr;
+  PetscScalar *to      = nullptr;
+  PetscInt     step    = 0; // a BV may have gaps between its columns
   PetscCall(BVSetActiveColumns(eps->V, 0, eps->nconv));
-  for (PetscInt j = 0; j < eps->nconv; ++j) // the array of a BV may have gaps between columns
-  {
-    Vec          column = nullptr;
-    PetscScalar *to     = nullptr;
-    PetscCall(BVGetColumn(eps->V, j, &column));
-    PetscCall(VecGetArrayWrite(column, &to));
-    Eigen::Map<VectorXd>(to, problem.rows()) = V(problem.free(), j);
-    PetscCall(VecRestoreArrayWrite(column, &to));
-    PetscCall(BVRestoreColumn(eps->V, j, &column));
-  }
-  return 0;
+  PetscCall(BVGetMat(eps->V, &columns));
+  PetscCall(MatDenseGetLDA(columns, &step));
+  PetscCall(MatDenseGetArrayWrite(columns, &to));
+  Columns(to, search.problem->rows(), V.cols(), Eigen::OuterStride<>(step)) = V(search.problem->free(), Eigen::all);
+  PetscCall(MatDenseRestoreArrayWrite(columns, &to));
+  return BVRestoreMat(eps->V, &columns);
 }
 
 PetscErrorCode destroy_search(EPS eps)
@@ -421,7 +415,7 @@ PetscErrorCode make_search(EPS eps)
 
 void register_own_types()
 {
-  static const bool done = []
+  [[maybe_unused]] static const bool done = []
   {
     require_petsc(MatInitializePackage(), "gestell's factor"); // else the first one registered replaces PETSc's own
     for (const char *matrix : {MATSHELL, MATSEQAIJ, MATSEQSBAIJ})
@@ -429,7 +423,6 @@ void register_own_types()
     require_petsc(EPSRegister(own_block_lanczos, make_search), "block-lanczos");
     return true;
   }();
-  (void)done;
 }
 
 PetscOwned<Mat> stiffness_operator(MPI_Comm comm, const ModeProblem &problem)
