@@ -131,23 +131,17 @@ std::vector<std::size_t> addresses_in(const std::string &bytes)
   return places;
 }
 
-struct Refusals
-{
-  int all    = 0;
-  int killed = 0; ///< where a signal ended HDF5 and the message says so
-};
-
-/// Reads the file with one address after the other that leads nowhere; names and times are addresses by chance only.
+/// Counts the refusals when reading the file with one address after the other that leads nowhere; names and times are
+/// addresses by chance only.
 template <typename Refusal>
-Refusals refusals(const std::string &file, const std::function<std::string(const std::string &)> &sealed,
-                  const std::function<void(const std::string &)> &read)
+int refusals(const std::string &file, const std::function<std::string(const std::string &)> &sealed,
+             const std::function<void(const std::string &)> &read)
 {
   coupling::write_reduced_frame(file, some_frame());
   const std::string              whole  = bytes(file);
   const std::vector<std::size_t> places = addresses_in(whole);
   EXPECT_GT(places.size(), 100u);
-  Refusals refusals;
-  int      n = 0;
+  int refused = 0, n = 0;
   for (std::size_t i = 0; i < places.size(); i += i < 8 ? 1 : places.size() / 8) // the first are those of the root
     for (const std::uint64_t address : {std::uint64_t(8), std::uint64_t(1) << 40, ~std::uint64_t(0)})
     {
@@ -159,30 +153,26 @@ Refusals refusals(const std::string &file, const std::function<std::string(const
       {
         read(name);
       }
-      catch (const Refusal &refusal)
+      catch (const Refusal &)
       {
-        ++refusals.all;
-        refusals.killed += std::string(refusal.what()).find("HDF5 was ended by signal") != std::string::npos;
+        ++refused;
       }
     }
-  return refusals;
+  return refused;
 }
 
 TEST_F(ReducedFrameFile, ForgedAddressesAreAMessageWhateverTheLibraryDoes)
 {
-  const Refusals of = refusals<std::invalid_argument>(
-      file, sealed_anew, [](const std::string &name) { coupling::read_reduced_frame(name); });
-  EXPECT_GT(of.all, 10);
-  EXPECT_GT(of.killed, 0) << "else it needs no child";
+  // a signal ends HDF5 1.10 at some of them, which would end this test were they not read in a child
+  const auto read = [](const std::string &name) { coupling::read_reduced_frame(name); };
+  EXPECT_GT(refusals<std::invalid_argument>(file, sealed_anew, read), 10);
 }
 
 TEST_F(ReducedFrameFile, DamagedAddressesAreAMessageWhereTheChecksumIsNotAsked)
 {
-  const auto     as_it_is = [](const std::string &damaged) { return damaged; };
-  const Refusals of =
-      refusals<std::runtime_error>(file, as_it_is, [](const std::string &name) { coupling::read_frame_summary(name); });
-  EXPECT_GT(of.all, 5);
-  EXPECT_GT(of.killed, 0) << "else it needs no child";
+  const auto as_it_is = [](const std::string &damaged) { return damaged; };
+  const auto read     = [](const std::string &name) { coupling::read_frame_summary(name); };
+  EXPECT_GT(refusals<std::runtime_error>(file, as_it_is, read), 5);
 }
 
 TEST_F(ReducedFrameFile, HeadIsNotTakenForDamagedWhereTheLimitOfTimeIsNoNumber)
