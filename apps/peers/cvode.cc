@@ -12,7 +12,7 @@ namespace
 {
 
 /// The tangent costs next to nothing, so that it is renewed whenever CVODE sets up its linear system.
-int set_up_condensed(double t, N_Vector y, N_Vector, SUNMatrix, booleantype, booleantype *current, double gamma,
+int set_up_condensed(double t, N_Vector y, N_Vector, SUNMatrix, sunbooleantype, sunbooleantype *current, double gamma,
                      void *user, N_Vector, N_Vector, N_Vector)
 {
   FirstOrderForm &form = static_cast<Callbacks *>(user)->form;

@@ -9,6 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
+#ifndef SUN_COMM_NULL // before SUNDIALS 7
+#define SUN_COMM_NULL nullptr
+#endif
+
 namespace gestell::peers
 {
 namespace
@@ -155,7 +159,7 @@ int solver_setup(SUNLinearSolver, SUNMatrix)
 {
   return 0;
 }
-int solver_solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, realtype)
+int solver_solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, sunrealtype)
 {
   const auto &own = *static_cast<CondensedSolver *>(solver->content);
   if (x != b)
@@ -215,7 +219,7 @@ SundialsParts::SundialsParts(Callbacks &callbacks, const PeerProblem &problem, c
                              bool with_solver)
     : n_(2 * problem.q.size())
 {
-  SUNContext_Create(nullptr, &context);
+  SUNContext_Create(SUN_COMM_NULL, &context);
   y = vector();
   N_VEnableFusedOps_Serial(y, SUNTRUE); // clones inherit it
   if (options.vectors == PeerVectors::native)

@@ -260,7 +260,9 @@ TEST_F(FrameAnswers, AStudyGoesOnWithoutTheRunsWhoseDrawingKillsItsReader)
   expect_answer(gestell("study " + study + folder_.option()), 0, {"2 runs made, 1 failed"});
   const std::string rows = read(folder_.results() / "runs.csv");
   EXPECT_EQ(count(rows, ",done,"), 1) << rows;
-  EXPECT_EQ(count(rows, "gmsh was ended by signal"), 1) << rows;
+  EXPECT_EQ(count(rows, "gmsh was ended by signal") + count(rows, "holds no closed solid"),
+            1) // OpenCASCADE 7.8 survives
+      << rows;
   std::ofstream(folder_ / "table.geo", std::ios::app)
       << "// edited\n"; // rows of two drawings would stand under one name
   expect_answer(gestell("study " + study + folder_.option() + "--resume"), 2, {"table.geo", "changed"});
