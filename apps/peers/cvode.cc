@@ -39,7 +39,9 @@ public:
   {
     const bool adams = options.kind == PeerKind::cvode_adams;
     memory_          = CVodeCreate(adams ? CV_ADAMS : CV_BDF, parts_.context);
+#if SUNDIALS_VERSION_MAJOR < 7 // later ones have messages of the context
     CVodeSetErrHandlerFn(memory_, keep_message, &parts_.failure);
+#endif
     expect(CVodeInit(memory_, state_rate, problem.t, parts_.y), "CVodeInit");
     CVodeSetUserData(memory_, &callbacks);
     CVodeSetMaxOrd(memory_, options.order);

@@ -37,7 +37,9 @@ public:
       : SundialsStepper(calls, callbacks, problem, options, false)
   {
     memory_ = ERKStepCreate(state_rate, problem.t, parts_.y, parts_.context);
+#if SUNDIALS_VERSION_MAJOR < 7 // later ones have messages of the context
     ERKStepSetErrHandlerFn(memory_, keep_message, &parts_.failure);
+#endif
     ERKStepSetUserData(memory_, &callbacks);
     ERKStepSetTableNum(memory_, table(options.order));
     ERKStepSetMaxNumSteps(memory_, -1);

@@ -220,6 +220,14 @@ SundialsParts::SundialsParts(Callbacks &callbacks, const PeerProblem &problem, c
     : n_(2 * problem.q.size())
 {
   SUNContext_Create(SUN_COMM_NULL, &context);
+#if SUNDIALS_VERSION_MAJOR >= 7
+  SUNContext_ClearErrHandlers(context);
+  SUNContext_PushErrHandler(
+      context,
+      [](int, const char *function, const char *, const char *message, SUNErrCode code, void *text, SUNContext)
+      { keep_message(code, function, "", const_cast<char *>(message), text); },
+      &failure);
+#endif
   y = vector();
   N_VEnableFusedOps_Serial(y, SUNTRUE); // clones inherit it
   if (options.vectors == PeerVectors::native)

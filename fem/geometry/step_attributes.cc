@@ -27,6 +27,7 @@
 #include <cctype>
 #include <optional>
 #include <string>
+#include <type_traits>
 
 namespace gestell::fem
 {
@@ -119,6 +120,17 @@ std::vector<StyledFace> read_styles(const std::string &path)
   return faces;
 }
 
+/// Whether a point of a face, given by its parameters, is in none of its holes.
+/// @param is_inside  gmsh's function; later versions than 4.8 take coordinates as well, hence a flag
+template <typename Function>
+bool is_within(Function *is_inside, int tag, const std::vector<double> &uv)
+{
+  if constexpr (std::is_invocable_v<Function, int, int, const std::vector<double> &, bool>)
+    return is_inside(2, tag, uv, true) > 0;
+  else
+    return is_inside(2, tag, uv) > 0;
+}
+
 /// A point of gmsh's face that is not in one of its holes, in gmsh's unit.
 std::optional<gp_Pnt> point_within(int tag)
 {
@@ -130,7 +142,7 @@ std::optional<gp_Pnt> point_within(int tag)
       {
         const std::vector<double> uv = {low[0] + (high[0] - low[0]) * (i + 0.5) / n,
                                         low[1] + (high[1] - low[1]) * (j + 0.5) / n};
-        if (gmsh::model::isInside(2, tag, uv) == 0)
+        if (!is_within(gmsh::model::isInside, tag, uv))
           continue;
         std::vector<double> x;
         gmsh::model::getValue(2, tag, uv, x);

@@ -42,7 +42,7 @@ std::string hint_of_header(const std::string &header)
 
 std::string hint_of_value(const std::string &value)
 {
-  static const std::regex comma(R"(^([-+]?\d+),(\d+)\s*([A-Za-z%\x80-\xff][^,]*)?$)");
+  static const std::regex comma(R"(^([-+]?\d+),(\d+(?:[eE][-+]?\d+)?)\s*([A-Za-z%\x80-\xff][^,]*)?$)");
   static const std::regex no_zero(R"((^|[\[{,\s])[-+]?(\.\d+|\d+\.(?=[\s,\]}]|$)))");
   static const std::regex with_unit(R"((^|[\[{,=]\s*)([-+]?[\d.]+([eE][-+]?\d+)?\s*[A-Za-z%\x80-\xff(*/^+][^,\]}]*))");
   static const std::regex word(R"(^[A-Za-z_\x80-\xff][^\[\]{},="']*$)");
@@ -114,10 +114,13 @@ std::string hint_of_repetition(const std::string &line, const std::string &reaso
   const std::string       begin = reason.substr(0, 2 * longest_judged);
   if (!std::regex_search(begin, parts, twice))
     return "";
+  const std::string own = defined_in(line); // the reason repeats letters after a quote
   const std::string name =
-      parts[3].length() > 0 ? parts[3].str() : defined_in(line); // it repeats letters after a quote
+      parts[3].length() == 0 || own.find_first_of("'\"") != std::string::npos ? own : parts[3].str();
   const std::string type = parts[1];
   const bool        head = trimmed(line).compare(0, 1, "[") == 0;
+  if (type == "table" && trimmed(line).compare(0, 2, "[[") == 0)
+    return "[" + name + "] stands above as one table; double brackets are for a list of tables";
   if (reason.find(" as table") != std::string::npos || reason.find(" as array-of-tables") != std::string::npos ||
       reason.find(" as dotted") != std::string::npos)
     return name + ": the same name stands above for another value (" + type + "); it cannot be a table as well";

@@ -103,6 +103,7 @@ TEST(Messages, SaysWhatALineThatIsNoTomlShouldBe)
   expect("k = 2*crank - 8 mm # twice", "put a value with a unit, and an expression, in quotes: \"2*crank - 8 mm\"");
   expect("x = 1,5", "decimals have a point: 1.5");
   expect("x = 1,5 mm", "decimals have a point: \"1.5 mm\"");
+  expect("x = 1,5e-3", "decimals have a point: 1.5e-3");
   expect("x = .5", "a number has digits on both sides of its point");
   expect("method = bdf", "text stands in quotes: \"bdf\"");
   expect("on = True", "write true or false");
@@ -121,6 +122,8 @@ TEST(Messages, NamesWhatIsDefinedTwice)
   { expect_complaint(text, "scene.toml:" + std::to_string(line) + ": is not TOML here: " + hint); };
   expect("[element.\"crank pin\"]\nk = 1\n[element.\"crank pin\"]\nk = 2\n", 3,
          "[element.\"crank pin\"] stands in the file twice");
+  expect("[element.'rod']\nk = 1\n[element.'rod']\n", 3, "[element.'rod'] stands in the file twice");
+  expect("[a.b]\nk = 1\n[[a.b]]\n", 3, "[a.b] stands above as one table");
   expect("[body]\n\"x y\" = 1\n\"x y\" = 2\n", 3, "the key '\"x y\"' stands twice in this table");
   expect("frame = \"a\"\n[frame.mesh]\nsize = 1\n", 2, "frame.mesh: the same name stands above for another value");
   expect("[body.slide]\nmass = 1\n[body]\nslide = 3\n", 4, "'slide' is already a table above");
