@@ -120,7 +120,7 @@ std::string hint_of_repetition(const std::string &line, const std::string &reaso
   const std::string type = parts[1];
   const bool        head = trimmed(line).compare(0, 1, "[") == 0;
   if (type == "table" && trimmed(line).compare(0, 2, "[[") == 0)
-    return "[" + name + "] stands above as one table; double brackets are for a list of tables";
+    return "[" + name + "] is one table above; double brackets are for a list of tables";
   if (reason.find(" as table") != std::string::npos || reason.find(" as array-of-tables") != std::string::npos ||
       reason.find(" as dotted") != std::string::npos)
     return name + ": the same name stands above for another value (" + type + "); it cannot be a table as well";

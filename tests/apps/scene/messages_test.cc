@@ -123,7 +123,7 @@ TEST(Messages, NamesWhatIsDefinedTwice)
   expect("[element.\"crank pin\"]\nk = 1\n[element.\"crank pin\"]\nk = 2\n", 3,
          "[element.\"crank pin\"] stands in the file twice");
   expect("[element.'rod']\nk = 1\n[element.'rod']\n", 3, "[element.'rod'] stands in the file twice");
-  expect("[a.b]\nk = 1\n[[a.b]]\n", 3, "[a.b] stands above as one table");
+  expect("[a.b]\nk = 1\n[[a.b]]\n", 3, "[a.b] is one table above");
   expect("[body]\n\"x y\" = 1\n\"x y\" = 2\n", 3, "the key '\"x y\"' stands twice in this table");
   expect("frame = \"a\"\n[frame.mesh]\nsize = 1\n", 2, "frame.mesh: the same name stands above for another value");
   expect("[body.slide]\nmass = 1\n[body]\nslide = 3\n", 4, "'slide' is already a table above");
