@@ -133,11 +133,7 @@ const std::atomic<bool> &interruption()
 
 void note_what_is_left()
 {
-  // Open MPI's folder of this process, which its end alone removes, and what is empty around it
-  const std::string of_mpi =
-      "d=${TMPDIR:-/tmp}; rm -rf -- \"$d\"/ompi.*/pid.$PPID; rmdir -- \"$d\"/ompi.*/jf.* \"$d\"/ompi.*; ";
-  leaving =
-      strdup((words_of_release() + fem::words_of_removal() + of_mpi).c_str()); // never freed: a signal may be reading
+  leaving = strdup((words_of_release() + fem::words_of_removal()).c_str()); // never freed: a signal may be reading
 }
 
 coupling::Progress nothing_to_save_before(const std::string &phase, const coupling::Progress &progress)

@@ -279,7 +279,7 @@ TEST_F(FrameAnswers, AnInterruptionBeforeTheRunLeavesNothing)
     const Answer cut =
         shell("(TMPDIR='" + temporary.string() + "' GESTELL_CACHE='" + (folder_ / "cache").string() +
               "' timeout --signal INT --kill-after 10 " + seconds + " '" GESTELL_BINARY_DIR "/bin/gestell' run " +
-              scene + folder_.option() + " --set frame.mesh.size='\"14 mm\"')"); // some seconds
+              scene + folder_.option() + " --set frame.mesh.size='\"9 mm\"')"); // some seconds
     EXPECT_EQ(cut.exit_code, 124) << "137 where it did not heed the signal within ten seconds: " << cut.text;
     EXPECT_TRUE(std::filesystem::is_empty(temporary)) << seconds;
     EXPECT_FALSE(std::filesystem::exists(folder_.results())) << seconds;
