@@ -274,12 +274,12 @@ TEST_F(FrameAnswers, AnInterruptionBeforeTheRunLeavesNothing)
   std::filesystem::create_directory(temporary);
   const std::string scene = folder_.file("scene.toml", block(support));
   folder_.file("block.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.2, 0.1, 1};\n");
-  for (const char *seconds : {"0.2", "0.4", "0.8", "1.2"})
+  for (const char *seconds : {"0.2", "0.4", "0.6", "0.8"})
   {
     const Answer cut =
         shell("(TMPDIR='" + temporary.string() + "' GESTELL_CACHE='" + (folder_ / "cache").string() +
               "' timeout --signal INT --kill-after 10 " + seconds + " '" GESTELL_BINARY_DIR "/bin/gestell' run " +
-              scene + folder_.option() + " --set frame.mesh.size='\"9 mm\"')"); // some seconds
+              scene + folder_.option() + " --set frame.mesh.size='\"12 mm\"')"); // some seconds
     EXPECT_EQ(cut.exit_code, 124) << "137 where it did not heed the signal within ten seconds: " << cut.text;
     EXPECT_TRUE(std::filesystem::is_empty(temporary)) << seconds;
     EXPECT_FALSE(std::filesystem::exists(folder_.results())) << seconds;
