@@ -110,11 +110,6 @@ bool compares_magnitudes(const std::string &warning)
   return warning.find("; expected: ") != std::string::npos;
 }
 
-/**
- * One mistake makes several values implausible.  They are added to an existing warning, which is closer to the cause;
- * without one a warning is made for the value farthest outside its range, which lists the others.  @param warnings  of
- * earlier checks
- */
 void warn_of_magnitudes(std::vector<UnexpectedValue> found, std::vector<std::string> &warnings)
 {
   std::stable_sort(found.begin(), found.end(),
