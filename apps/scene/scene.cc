@@ -158,6 +158,8 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
     request.options.frequency             = modes.frequency;
     request.options.place                 = table.place();
   }
+  if (table.has("factor"))
+    request.options.factor = table.choice("factor");
   request.options.eigensolver    = table.choice("eigensolver");
   request.options.inertia_relief = table.truth("inertia_relief");
   return request;

@@ -110,6 +110,10 @@ const std::vector<Key> &reduction_keys()
                   "beside `\"craig-bampton\"`: `\"free-interface\"` is the method of that name"),
       key::choice("damping", {"full", "diagonal"}, true,
                   "of `\"modal\"`: `\"diagonal\"` leaves out what couples modes"),
+      key::choice("factor", {"gestell", "cholmod", "mumps"}, true,
+                  "factor of the stiffness, for all solutions and modes; the results agree up to rounding. "
+                  "`\"gestell\"`, `\"cholmod\"`: in one process, `\"mumps\"`: on any number of ranks of `mpirun`")
+          .by_default("`\"gestell\"`, on several ranks `\"mumps\"`"),
       key::choice("eigensolver", {"block-lanczos", "krylov-schur", "lobpcg"}, true,
                   "`\"krylov-schur\"`, `\"lobpcg\"`: of SLEPc, for the same modes in more time; the second may break "
                   "down by rounding, and says so. Options of PETSc and "

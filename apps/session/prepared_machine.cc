@@ -123,7 +123,8 @@ PreparedMachine on_full_frame(const Scene &scene, const coupling::Progress &prog
   {
     const int     n_reduced    = static_cast<int>(reduced.omega0.size());
     constexpr int damped_modes = 60; // Modes damped in an unreduced frame with modal damping, at least.
-    coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress);
+    coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress,
+                                                scene.reduction.options.factor);
   }
   return {build_machine(scene, std::move(frame)), std::move(companion), {}};
 }

@@ -13,7 +13,7 @@ namespace gestell::coupling
 /// one after those that contribute to it (postorder).
 struct Fronts
 {
-  int        n = 0, count = 0; // rows; columns may be the first of them only, the rest belongs to other fronts
+  int        n = 0, count = 0; // coordinates
   const int *first = nullptr;  // [count + 1] columns of front s are first[s] .. first[s + 1] - 1
   const int *begin = nullptr;  // [count + 1] into rows
   const int *rows  = nullptr;  // of front s: ascending, its own columns first
@@ -30,16 +30,6 @@ struct HeldMatrix
   double                             held_diagonal = 1.;
 };
 
-/// Interface between eliminations of different fronts.  A contribution is [k x k] for the k rows below a front's
-/// own columns; its lower triangle counts.
-struct Border
-{
-  /// Provides the contribution of a front without columns, computed elsewhere.
-  std::function<void(int front, double *contribution)> given;
-  /// Receives the contribution of a front with rows below, none of which is a column of these fronts.
-  std::function<void(int front, const double *contribution)> left;
-};
-
 /**
  * Cholesky factor A = L L^T by the multifrontal method: each front collects the entries of A and the contributions of
  * the fronts before it, is factored densely, and passes its contribution on.
@@ -50,7 +40,7 @@ struct Border
  * Source: Duff & Reid, ACM Trans. Math. Software 9 (1983) 302-325.
  */
 int multifrontal_cholesky(const Fronts &fronts, const HeldMatrix &A,
-                          const std::function<void(int front, const double *panel)> &take, const Border &border = {});
+                          const std::function<void(int front, const double *panel)> &take);
 
 /// Upper bound of numbers that either elimination needs in addition to L.
 std::ptrdiff_t multifrontal_workspace(const Fronts &fronts);
@@ -68,6 +58,6 @@ struct Inertia
  * of A + E, |E| ~ growth * eps * diag(C).  Where growth is far beyond 1 / sqrt(eps) a pivot was close to zero; use
  * another sigma.
  */
-Inertia multifrontal_inertia(const Fronts &fronts, const HeldMatrix &A, const Border &border = {});
+Inertia multifrontal_inertia(const Fronts &fronts, const HeldMatrix &A);
 
 } // namespace gestell::coupling

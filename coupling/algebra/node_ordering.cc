@@ -82,9 +82,15 @@ Groups groups_of(const Partners &partners, int n)
   return groups;
 }
 
-SparsePattern graph_of(const Groups &groups, const Partners &partners)
+/// The graph of the groups: lower triangle, by columns.
+struct GroupGraph
 {
-  SparsePattern    graph{groups.count(), {0}, {}};
+  std::vector<int> begin{0}, rows;
+};
+
+GroupGraph graph_of(const Groups &groups, const Partners &partners)
+{
+  GroupGraph       graph;
   std::vector<int> visited(groups.count(), -1);
   for (int a = 0; a < groups.count(); ++a)
   {
@@ -102,18 +108,17 @@ SparsePattern graph_of(const Groups &groups, const Partners &partners)
   return graph;
 }
 
-} // namespace
-
-cholmod_sparse view_of(SparsePattern &lower)
+/// The pattern of a lower triangle for CHOLMOD.
+cholmod_sparse view_of(std::size_t n, std::size_t entries, void *begin, void *rows, int index_type)
 {
   cholmod_sparse view{};
-  view.nrow   = lower.n;
-  view.ncol   = lower.n;
-  view.nzmax  = lower.rows.size();
-  view.p      = lower.begin.data();
-  view.i      = lower.rows.data();
+  view.nrow   = n;
+  view.ncol   = n;
+  view.nzmax  = entries;
+  view.p      = begin;
+  view.i      = rows;
   view.stype  = -1;
-  view.itype  = CHOLMOD_INT;
+  view.itype  = index_type;
   view.xtype  = CHOLMOD_PATTERN;
   view.dtype  = CHOLMOD_DOUBLE;
   view.sorted = 1;
@@ -121,35 +126,41 @@ cholmod_sparse view_of(SparsePattern &lower)
   return view;
 }
 
-SparsePattern lower_triangle(const SparseMatrix &A, const std::vector<char> &held)
+} // namespace
+
+LowerPattern::LowerPattern(const SparseMatrix &A, const std::vector<char> &held)
 {
   const int      n = int(A.cols());
   const Partners partners(A, held);
-  SparsePattern  lower{n, {0}, {}};
-  lower.rows.reserve((A.nonZeros() + n) / 2);
+  rows_.reserve((A.nonZeros() + n) / 2);
   for (int j = 0; j < n; ++j)
   {
-    lower.rows.push_back(j);
+    rows_.push_back(j);
     partners.for_each(j,
                       [&](int i)
                       {
                         if (i > j)
-                          lower.rows.push_back(i);
+                          rows_.push_back(i);
                       });
-    lower.begin.push_back(int(lower.rows.size()));
+    begin_.push_back(SuiteSparse_long(rows_.size()));
   }
-  return lower;
+  view_ = view_of(n, rows_.size(), begin_.data(), rows_.data(), CHOLMOD_LONG);
 }
 
-std::vector<int> node_ordering(const SparseMatrix &A, const std::vector<char> &held, cholmod_common &common)
+std::vector<int> node_ordering(const SparseMatrix &A, const std::vector<char> &held)
 {
   const int        n = int(A.cols());
   const Partners   partners(A, held);
   const Groups     groups = groups_of(partners, n);
-  SparsePattern    graph  = graph_of(groups, partners);
+  GroupGraph       graph  = graph_of(groups, partners);
   std::vector<int> order_of_groups(groups.count());
-  cholmod_sparse   view = view_of(graph);
-  if (groups.count() > 0 && !cholmod_metis(&view, nullptr, 0, 0, order_of_groups.data(), &common))
+  cholmod_sparse view = view_of(groups.count(), graph.rows.size(), graph.begin.data(), graph.rows.data(), CHOLMOD_INT);
+  cholmod_common common;
+  cholmod_start(&common);
+  common.print       = 0;
+  const bool ordered = groups.count() == 0 || cholmod_metis(&view, nullptr, 0, 0, order_of_groups.data(), &common);
+  cholmod_finish(&common);
+  if (!ordered)
     throw std::bad_alloc();
 
   std::vector<int> place(groups.count() + 1, 0), order(n); // members of the groups, in the order of these

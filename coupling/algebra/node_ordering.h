@@ -9,29 +9,29 @@
 namespace gestell::coupling
 {
 
-/// Columns of a sparse matrix without its numbers.
-struct SparsePattern
-{
-  int              n = 0;
-  std::vector<int> begin, rows;
-};
-
-/// CHOLMOD's view of the lower triangle of a symmetric pattern; valid as long as that lives.
-cholmod_sparse view_of(SparsePattern &lower);
-
-/// Lower triangle of A without the couplings of the coordinates held (marks [n] or empty), diagonal complete.
-SparsePattern lower_triangle(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held);
-
 /**
  * Fill-reducing order of elimination: nested dissection by METIS, through CHOLMOD, of the graph whose
  * vertices are groups of coordinates with the same partners, as the three displacements of a node are.  The graph has a
  * ninth of the edges, and METIS needs as much less time.
  *
- * @param A  compressed, both triangles stored.
- * @return   [n] the coordinate to be eliminated as k-th.
- * @throws   std::bad_alloc.
+ * @param A     compressed, both triangles stored.
+ * @param held  marks [n] of fixed coordinates, whose couplings do not count; or empty.
+ * @return      [n] the coordinate to be eliminated as k-th.
+ * @throws      std::bad_alloc.
  */
-std::vector<int> node_ordering(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held,
-                               cholmod_common &common);
+std::vector<int> node_ordering(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held);
+
+/// Lower triangle of A without the couplings of the fixed coordinates, diagonal complete: CHOLMOD's view, with indices
+/// of 64 bit so that a factor may have more than 2^31 numbers.
+class LowerPattern
+{
+public:
+  LowerPattern(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held);
+  cholmod_sparse *view() { return &view_; }
+
+private:
+  std::vector<SuiteSparse_long> begin_{0}, rows_;
+  cholmod_sparse                view_{};
+};
 
 } // namespace gestell::coupling

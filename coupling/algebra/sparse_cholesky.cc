@@ -8,6 +8,7 @@
 #include <suitesparse/cholmod.h>
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <cstddef>
 #include <new>
@@ -18,11 +19,54 @@ extern "C" void openblas_set_num_threads(int n);
 namespace gestell::coupling
 {
 
+namespace
+{
+
+/// The result of an analysis: order of the coordinates and fronts.
+struct Analysis
+{
+  std::vector<int> first, begin, rows, order;
+};
+
+/// Symbolic analysis by CHOLMOD from the pattern of A.
+Analysis analysed(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held)
+{
+  cholmod_common common;
+  cholmod_l_start(&common);
+  common.print              = 0;
+  common.supernodal         = CHOLMOD_SUPERNODAL;
+  common.nmethods           = 1;
+  common.method[0].ordering = CHOLMOD_GIVEN;
+  common.postorder          = 1;
+
+  const std::vector<int>        places = node_ordering(A, held);
+  std::vector<SuiteSparse_long> order(places.begin(), places.end());
+  LowerPattern                  lower(A, held);
+  cholmod_factor               *L = cholmod_l_analyze_p(lower.view(), order.data(), nullptr, 0, &common);
+  Analysis                      result;
+  const bool                    done = L && common.status >= CHOLMOD_OK && L->ssize <= std::size_t(INT_MAX);
+  if (done)
+  {
+    const auto ints = [](const void *p, std::size_t count)
+    {
+      const auto *values = static_cast<const SuiteSparse_long *>(p);
+      return std::vector<int>(values, values + count);
+    };
+    result = {ints(L->super, L->nsuper + 1), ints(L->pi, L->nsuper + 1), ints(L->s, L->ssize), ints(L->Perm, L->n)};
+  }
+  cholmod_l_free_factor(&L, &common);
+  cholmod_l_finish(&common);
+  if (!done)
+    throw std::bad_alloc();
+  return result;
+}
+
+} // namespace
+
 struct SparseCholesky::Factor
 {
-  cholmod_common      common;
-  cholmod_factor     *analysis = nullptr; // without numbers
-  int                 n        = 0;
+  Analysis            analysis; // without numbers
+  int                 n = 0;
   std::vector<int>    held; // ascending
   TiledPanels         L;
   std::vector<double> single; // right-hand side in the order of elimination
@@ -31,20 +75,7 @@ struct SparseCholesky::Factor
   {
     use_fitting_blas_kernels();
     openblas_set_num_threads(1);
-    cholmod_start(&common);
-    common.print              = 0;
-    common.supernodal         = CHOLMOD_SUPERNODAL;
-    common.nmethods           = 1;
-    common.method[0].ordering = CHOLMOD_GIVEN;
-    common.postorder          = 1;
   }
-  ~Factor()
-  {
-    cholmod_free_factor(&analysis, &common);
-    cholmod_finish(&common);
-  }
-  Factor(const Factor &)            = delete;
-  Factor &operator=(const Factor &) = delete;
 
   std::vector<char> held_marks() const
   {
@@ -56,9 +87,8 @@ struct SparseCholesky::Factor
 
   Fronts fronts() const
   {
-    const auto ints = [](const void *p) { return static_cast<const int *>(p); };
-    return {
-        n, int(analysis->nsuper), ints(analysis->super), ints(analysis->pi), ints(analysis->s), ints(analysis->Perm)};
+    const auto &[first, begin, rows, order] = analysis;
+    return {n, int(first.size()) - 1, first.data(), begin.data(), rows.data(), order.data()};
   }
 
   /// Calls visit(row of A, diagonal entry of L) for every column.
@@ -72,25 +102,6 @@ struct SparseCholesky::Factor
 
 namespace
 {
-
-/// Symbolic analysis by CHOLMOD from the pattern of A: order of the coordinates and fronts.
-cholmod_factor *analysed(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held, cholmod_common &common)
-{
-  SparsePattern    lower = lower_triangle(A, held);
-  std::vector<int> order = node_ordering(A, held, common);
-  cholmod_sparse   view  = view_of(lower);
-  cholmod_factor  *L     = cholmod_analyze_p(&view, order.data(), nullptr, 0, &common);
-  if (!L || common.status < CHOLMOD_OK)
-  {
-    const bool too_large = common.status == CHOLMOD_TOO_LARGE;
-    cholmod_free_factor(&L, &common);
-    constexpr double most_numbers = 2147483647.; // in L: CHOLMOD counts them by int
-    if (too_large)
-      throw NotEnoughMemory(most_numbers * sizeof(double), INFINITY);
-    throw std::bad_alloc();
-  }
-  return L;
-}
 
 std::string gibibytes(double bytes)
 {
@@ -127,12 +138,11 @@ bool contains(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<do
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A) : SparseCholesky(both_triangles(A), {}) {}
 
 NotEnoughMemory::NotEnoughMemory(double needed, double available)
-    : std::runtime_error("the factor of " +
-                         (std::isfinite(available)
-                              ? "the stiffness needs " + gibibytes(needed) + " of memory, but only " +
-                                    gibibytes(available) + " are available"
-                              : "the stiffness is larger than the " + gibibytes(needed) + " that can be addressed") +
-                         "; use a coarser mesh, or hexahedra in thin walls")
+    : std::runtime_error("the factor of the stiffness needs " + gibibytes(needed) + " of memory, but only " +
+                         gibibytes(available) +
+                         " are available; use a coarser mesh, hexahedra in thin walls, more ranks (mpirun), or "
+                         "reduction.factor = \"mumps\" with its factor on disk "
+                         "(PETSC_OPTIONS=\"-reduction_mat_mumps_icntl_22 1\")")
 {
 }
 
@@ -145,7 +155,7 @@ SparseCholesky SparseCholesky::without_numbers(const Eigen::SparseMatrix<double>
   Factor        &f = *result.factor_;
   f.n              = int(A.rows());
   f.held           = held;
-  f.analysis       = analysed(A, f.held_marks(), f.common);
+  f.analysis       = analysed(A, f.held_marks());
   f.L              = TiledPanels(f.fronts());
   return result;
 }
@@ -290,7 +300,7 @@ Inertia SparseCholesky::inertia(const Eigen::SparseMatrix<double> &C, const Eige
   Factor united; // masses between coordinates without a stiffness
   united.n        = f.n;
   united.held     = f.held;
-  united.analysis = analysed(C + M, f.held_marks(), united.common);
+  united.analysis = analysed(C + M, f.held_marks());
   return multifrontal_inertia(united.fronts(), {C, &M, sigma, f.held_marks(), 1.});
 }
 

@@ -76,7 +76,10 @@ void InverseStiffness::solve_columns(Eigen::Ref<MatrixXd> X) const
   block.give(X, order());
 }
 
-InverseByColumns::InverseByColumns(int n, Solve solve) : solve_(std::move(solve)), order_(all_of(n)) {}
+InverseByColumns::InverseByColumns(int n, Solve solve, std::vector<int> held)
+    : solve_(std::move(solve)), order_(all_of(n)), held_(std::move(held))
+{
+}
 
 void InverseByColumns::solve_in_place(MultiVector &X) const
 {

@@ -71,15 +71,16 @@ class InverseByColumns final : public InverseStiffness
 {
 public:
   using Solve = std::function<void(Eigen::Ref<Eigen::MatrixXd> X)>;
-  InverseByColumns(int n, Solve solve);
+  /// @param held  coordinates that the function leaves without motion, ascending.
+  InverseByColumns(int n, Solve solve, std::vector<int> held = {});
   void                    solve_in_place(MultiVector &X) const override;
   void                    solve_columns(Eigen::Ref<Eigen::MatrixXd> X) const override { solve_(X); }
   const std::vector<int> &order() const override { return order_; }
-  const std::vector<int> &held() const override { return none_; }
+  const std::vector<int> &held() const override { return held_; }
 
 private:
   Solve            solve_;
-  std::vector<int> order_, none_;
+  std::vector<int> order_, held_;
 };
 
 struct LowestModes

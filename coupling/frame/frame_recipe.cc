@@ -264,13 +264,14 @@ public:
 
   void add(const ReductionOptions &value)
   {
-    const auto &[n_modes, tolerance, frequency, place, method, eigensolver, inertia_relief] = value;
+    const auto &[n_modes, tolerance, frequency, place, method, factor, eigensolver, inertia_relief] = value;
     add("reduction.method", method);
     if (n_modes >= 0)
       add("reduction.modes", n_modes);
     else
       add("reduction.tolerance", tolerance);
     add("reduction.frequency", frequency); // also the limits stated by the frame
+    add("reduction.factor", factor);
     add("reduction.eigensolver", eigensolver);
     add("reduction.inertia relief", inertia_relief);
   }

@@ -1,7 +1,7 @@
 # frame_sources(top result): the sources that a reduced frame depends on: fem, the reduction, the eigensolvers and what
 # these include of the rest of coupling.
 function(frame_sources top result)
-  set(folders fem coupling/eigensolvers coupling/parallel coupling/reduction coupling/plugin/frame
+  set(folders fem coupling/eigensolvers coupling/factors coupling/reduction coupling/plugin/frame
       coupling/substructures)
   set(sources "")
   foreach(folder IN LISTS folders)

@@ -13,6 +13,7 @@ struct ReductionOptions
   double      frequency = 0.;   ///< [Hz] highest frequency of interest; 0: that of the twelfth elastic mode
   std::string place;            ///< "press.toml:60: reduction", prefix of messages
   std::string method         = "craig-bampton"; ///< a name of Reductions
+  std::string factor;                           ///< see make_factor(); empty: by the number of processes
   std::string eigensolver    = "block-lanczos"; ///< or a type of SLEPc, see search_modes()
   bool        inertia_relief = false; ///< adds the deflections under the inertia of rigid-body motions to the modes
 };

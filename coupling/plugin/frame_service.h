@@ -26,7 +26,8 @@ public:
   virtual ReducedFrame reduce(const fem::FrameMatrices &frame, const ReductionOptions &options,
                               const Progress &progress) = 0;
   /// Fills frame.modal_damping with the lowest n_modes modes of the supported frame with free interface.
-  virtual void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress) = 0;
+  virtual void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress,
+                                 const std::string &factor) = 0;
 };
 
 } // namespace gestell::coupling

@@ -12,7 +12,7 @@
 namespace gestell::coupling
 {
 
-void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress)
+void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress, const std::string &factor)
 {
   const int n = int(frame.M.rows());
   if (n_modes < 0 || n_modes > n)
@@ -30,7 +30,7 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
   }
   if (progress)
     progress("factorisation", -1.);
-  FixedInterfaceFrame free_frame(frame, {});
+  FixedInterfaceFrame free_frame(frame, {}, factor);
   if (progress)
     progress("modes of the supported frame", -1.);
   FixedInterfaceModes fixed(free_frame, frame, {});

@@ -117,7 +117,7 @@ ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionO
   reduced.static_residual    = remainder.relative;
   name_free_motions(reduced, frame, space.basis.q1);
   add_texts(reduced, frame, space);
-  return {std::move(reduced), std::move(space.basis)};
+  return {std::move(reduced), std::move(space.basis), options.factor};
 }
 
 ReducedFrame reduce_frame(const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress)

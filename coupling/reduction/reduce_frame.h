@@ -4,6 +4,8 @@
 #include "coupling/frame/reduction_options.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 
+#include <string>
+
 namespace gestell::coupling
 {
 
@@ -12,6 +14,7 @@ struct ReducedModel
 {
   ReducedFrame   frame;
   ReductionBasis basis;
+  std::string    factor; ///< of the reduction, see make_factor()
 };
 
 /**

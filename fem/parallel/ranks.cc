@@ -51,30 +51,30 @@ void await(MPI_Request request)
       std::chrono::microseconds(200), std::chrono::microseconds(50));
 }
 
-void send_message(const void *bytes, std::size_t size, Tag tag, int to)
+void send_message(MPI_Comm comm, const void *bytes, std::size_t size, Tag tag, int to)
 {
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Isend(bytes, int(size), MPI_BYTE, to, tag, Ranks::comm(), &request);
+  MPI_Isend(bytes, int(size), MPI_BYTE, to, tag, comm, &request);
   await(request);
 }
 
-void receive_message(void *bytes, std::size_t size, Tag tag, int from)
+void receive_message(MPI_Comm comm, void *bytes, std::size_t size, Tag tag, int from)
 {
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Irecv(bytes, int(size), MPI_BYTE, from, tag, Ranks::comm(), &request);
+  MPI_Irecv(bytes, int(size), MPI_BYTE, from, tag, comm, &request);
   await(request);
 }
 
-void send_values(const void *values, std::size_t size, int to)
+void send_values(MPI_Comm comm, const void *values, std::size_t size, int to)
 {
   for (std::size_t first = 0; first < size; first += at_once)
-    send_message(static_cast<const char *>(values) + first, std::min(at_once, size - first), tag_values, to);
+    send_message(comm, static_cast<const char *>(values) + first, std::min(at_once, size - first), tag_values, to);
 }
 
-void receive_values(void *values, std::size_t size, int from)
+void receive_values(MPI_Comm comm, void *values, std::size_t size, int from)
 {
   for (std::size_t first = 0; first < size; first += at_once)
-    receive_message(static_cast<char *>(values) + first, std::min(at_once, size - first), tag_values, from);
+    receive_message(comm, static_cast<char *>(values) + first, std::min(at_once, size - first), tag_values, from);
 }
 
 /// The kind of a failure, and its message.
@@ -191,30 +191,30 @@ void Ranks::sum_on_first(double *x, std::ptrdiff_t count) const
 
 void Ranks::send(const double *values, std::ptrdiff_t count, int to) const
 {
-  send_values(values, sizeof(double) * count, to);
+  send_values(comm(), values, sizeof(double) * count, to);
 }
 
 void Ranks::receive(double *values, std::ptrdiff_t count, int from) const
 {
-  receive_values(values, sizeof(double) * count, from);
+  receive_values(comm(), values, sizeof(double) * count, from);
 }
 
 void Ranks::send_bytes(const void *values, std::size_t count, std::size_t size, int to) const
 {
-  send_message(&count, sizeof count, tag_count, to);
-  send_values(values, count * size, to);
+  send_message(comm(), &count, sizeof count, tag_count, to);
+  send_values(comm(), values, count * size, to);
 }
 
 std::size_t Ranks::announced(int from) const
 {
   std::size_t count = 0;
-  receive_message(&count, sizeof count, tag_count, from);
+  receive_message(comm(), &count, sizeof count, tag_count, from);
   return count;
 }
 
 void Ranks::receive_bytes(void *values, std::size_t count, std::size_t size, int from) const
 {
-  receive_values(values, count * size, from);
+  receive_values(comm(), values, count * size, from);
 }
 
 void Ranks::abort(const std::string &message) const

@@ -37,11 +37,13 @@ class Ranks
 public:
   /// The ranks of a running MPI; one rank without MPI.
   Ranks();
+  /// This process alone, whatever mpirun started.
+  static Ranks alone() { return Ranks(MPI_COMM_SELF); }
 
   int             rank() const { return rank_; }
   int             size() const { return size_; }
   bool            first() const { return rank_ == 0; }
-  static MPI_Comm comm() { return MPI_COMM_WORLD; }
+  MPI_Comm        comm() const { return comm_; }
 
   /// Rank 0: sends the order to all others.
   void order(int number) const;
@@ -112,7 +114,10 @@ private:
   std::size_t announced(int from) const;
   void        receive_bytes(void *values, std::size_t count, std::size_t size, int from) const;
 
-  int rank_ = 0, size_ = 1;
+  explicit Ranks(MPI_Comm comm) : comm_(comm) {}
+
+  MPI_Comm comm_ = MPI_COMM_WORLD;
+  int      rank_ = 0, size_ = 1;
 };
 
 } // namespace gestell::fem

@@ -128,7 +128,7 @@ TEST(Includes, OfIntegratorsAndPeriodicSolversKnowNoFrameAndNoMechanism)
 TEST(Includes, OfCouplingLeaveTheHeavyLibrariesToTheReduction)
 {
   EXPECT_TRUE(none(includes_matching(tree(), {"coupling/"},
-                                     {"coupling/reduction/", "coupling/parallel/", "coupling/eigensolvers/slepc/",
+                                     {"coupling/reduction/", "coupling/factors/", "coupling/eigensolvers/slepc/",
                                       "coupling/plugin/frame/", "coupling/plugin/team/"},
                                      heavy)));
   EXPECT_TRUE(none(includes_matching(tree(), {"coupling/"}, {}, "apps/|tests/")));

@@ -32,7 +32,7 @@ const std::vector<std::vector<std::string>> directions = {
     {"mechanism/functions", "mechanism/measures", "mechanism/elements", "mechanism/joints"},
     {"coupling/integration/system", "coupling/integration/step", "coupling/integration/bdf",
      "coupling/integration/stability"},
-    {"coupling/integration", "coupling/frame", "coupling/algebra", "coupling/eigensolvers", "coupling/parallel",
+    {"coupling/integration", "coupling/frame", "coupling/algebra", "coupling/eigensolvers", "coupling/factors",
      "coupling/reduction/shapes", "coupling/reduction/estimates", "coupling/reduction/methods", "coupling/reduction",
      "coupling/plugin/frame"},
     {"coupling/integration", "coupling/frame", "coupling/exchange", "coupling/algebra", "coupling/machine",

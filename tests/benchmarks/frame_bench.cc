@@ -1,15 +1,16 @@
 // Frequencies of a clamped CAD frame and the CPU time they took; with --deck the same mesh as an input file of
-// CalculiX, with --eigensolvers by factors and eigensolvers of ours and of PETSc and SLEPc in turn.
+// CalculiX, with --factors by each factor and eigensolver in turn; likewise for a grid of hexahedra.
 #include "coupling/algebra/openblas.h"
-#include "coupling/eigensolvers/slepc/mode_search.h"
-#include "coupling/eigensolvers/slepc/registered_types.h"
+#include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/factors/stiffness_factor.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/supports.h"
 #include "fem/mesh/mesher.h"
-#include "fem/parallel/petsc_session.h"
 #include "fem/recovery/discretisation.h"
 
+#include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <exception>
 #include <fstream>
@@ -136,65 +137,108 @@ double tell_time(const std::string &name, const Work &work)
   return seconds;
 }
 
-/// Factor of C by a solver of PETSc, and solutions one by one and eight at once.
-void time_factor(Mat C, const std::string &solver)
+/// Trilinear hexahedra of steel, 10 mm wide, clamped at x = 0; lumped masses: 81 entries in a row of C.
+fem::FrameMatrices grid(int nx, int ny, int nz)
 {
-  using coupling::require_petsc;
-  coupling::PetscOwned<Mat> factor;
-  tell_time(solver + ": factor",
-            [&]
-            {
-              Mat           F = nullptr;
-              MatFactorInfo info;
-              MatFactorInfoInitialize(&info);
-              require_petsc(MatGetFactor(C, solver.c_str(), MAT_FACTOR_CHOLESKY, &F), "bench");
-              factor.reset(F);
-              require_petsc(MatCholeskyFactorSymbolic(F, C, nullptr, &info), "bench");
-              require_petsc(MatCholeskyFactorNumeric(F, C, &info), "bench");
-            });
-  for (const int columns : {1, 8})
+  constexpr double h = 0.01, E = 210e9, nu = 0.3, rho = 7850.;
+  Eigen::Matrix<double, 6, 6> D = Eigen::Matrix<double, 6, 6>::Zero();
+  D.topLeftCorner<3, 3>().setConstant(nu);
+  D.topLeftCorner<3, 3>().diagonal().setConstant(1. - nu);
+  D.bottomRightCorner<3, 3>().diagonal().setConstant(0.5 - nu);
+  D *= E / ((1. + nu) * (1. - 2. * nu));
+  Eigen::Matrix<double, 24, 24> K = Eigen::Matrix<double, 24, 24>::Zero();
+  for (int g = 0; g < 8; ++g) // Gauss points
   {
-    PetscInt n = 0;
-    MatGetSize(C, &n, nullptr);
-    Mat f = nullptr, x = nullptr;
-    MatCreateSeqDense(PETSC_COMM_SELF, n, columns, nullptr, &f);
-    MatDuplicate(f, MAT_DO_NOT_COPY_VALUES, &x);
-    const coupling::PetscOwned<Mat> loads(f), motions(x);
-    MatSetRandom(f, nullptr);
-    tell_time(solver + ": solution for " + std::to_string(columns),
-              [&] { require_petsc(MatMatSolve(factor.get(), f, x), "bench"); });
+    Eigen::Matrix<double, 6, 24> strain = Eigen::Matrix<double, 6, 24>::Zero();
+    for (int a = 0; a < 8; ++a)
+    {
+      double gradient[3];
+      for (int d = 0; d < 3; ++d)
+      {
+        gradient[d] = 2. / h * ((a >> d & 1) ? 0.5 : -0.5);
+        for (int e = 0; e < 3; ++e)
+          if (e != d)
+            gradient[d] *= 0.5 * (1. + ((a >> e & 1) == (g >> e & 1) ? 1. : -1.) / std::sqrt(3.));
+      }
+      for (int d = 0; d < 3; ++d)
+      {
+        const int e = (d + 1) % 3;
+        strain(d, 3 * a + d)     = gradient[d];
+        strain(3 + d, 3 * a + d) = gradient[e];
+        strain(3 + d, 3 * a + e) = gradient[d];
+      }
+    }
+    K += strain.transpose() * D * strain * (h * h * h / 8.);
+  }
+  const auto node = [&](int i, int j, int k) { return (i - 1) + nx * (j + (ny + 1) * k); }; // negative: clamped
+  const int  n    = 3 * nx * (ny + 1) * (nz + 1);
+  // entries by rows: couplings of a node to those around it
+  std::vector<Eigen::Triplet<double>> C, M;
+  C.reserve(std::size_t(nx) * ny * nz * 576);
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i)
+        for (int a = 0; a < 8; ++a)
+        {
+          if (i + (a & 1) == 0)
+            continue;
+          const int p = node(i + (a & 1), j + (a >> 1 & 1), k + (a >> 2 & 1));
+          for (int d = 0; d < 3; ++d)
+            M.emplace_back(3 * p + d, 3 * p + d, rho * h * h * h / 8.);
+          for (int b = 0; b < 8; ++b)
+            if (i + (b & 1) > 0)
+              for (int d = 0; d < 9; ++d)
+                C.emplace_back(3 * p + d / 3, 3 * node(i + (b & 1), j + (b >> 1 & 1), k + (b >> 2 & 1)) + d % 3,
+                               K(3 * a + d / 3, 3 * b + d % 3));
+        }
+  fem::FrameMatrices frame;
+  frame.C.resize(n, n);
+  frame.M.resize(n, n);
+  frame.C.setFromTriplets(C.begin(), C.end());
+  frame.M.setFromTriplets(M.begin(), M.end());
+  return frame;
+}
+
+/// Each factor: its time, solutions of 1, 8 and 16 columns, the modes by each eigensolver, their number by inertia.
+void compare_factors(const fem::FrameMatrices &frame, int n_modes)
+{
+  const int n = int(frame.C.rows());
+  std::cout << "coordinates " << n << '\n';
+  for (const std::string name : {"gestell", "cholmod", "mumps"})
+  {
+    const auto factor = coupling::make_factor(name, {&frame.C, &frame.M});
+    tell_time(name + ": factor", [&] { factor->factorise(); });
+    for (const int columns : {1, 8, 16})
+    {
+      Eigen::MatrixXd X = Eigen::MatrixXd::Random(n, columns);
+      tell_time(name + ": solution for " + std::to_string(columns), [&] { factor->solve_in_place(X); });
+    }
+    double between = 0.;
+    for (const char *eigensolver : {"block-lanczos", "krylov-schur"})
+      tell_time(name + ": " + eigensolver,
+                [&]
+                {
+                  const auto search = factor->search(eigensolver, {}, {});
+                  search->find(n_modes);
+                  const auto gap = search->gap_above(n_modes);
+                  between        = 0.5 * (gap.low + gap.high);
+                  std::cout << "highest frequency [Hz] " << search->modes(n_modes).omega(n_modes - 1) / 6.283185307179586
+                            << ", modes below the gap " << gap.below << '\n';
+                });
+    factor->release();
+    tell_time(name + ": number of modes", [&] { std::cout << "counted " << factor->below(between).negative << '\n'; });
   }
 }
 
-void compare_eigensolvers(const fem::FrameMatrices &frame, int n_modes)
+/// Size of the factor by its analysis alone.
+void analyse(const fem::FrameMatrices &frame)
 {
-  fem::petsc_session();
-  coupling::register_own_types();
-  const int n     = int(frame.C.rows());
-  auto     &whole = const_cast<fem::SparseMatrix &>(frame.C); // PETSc promises not to change it
-  Mat       C     = nullptr;
-  MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, whole.outerIndexPtr(), whole.innerIndexPtr(), whole.valuePtr(), &C);
-  const coupling::PetscOwned<Mat> owned(C);
-  MatSetOption(C, MAT_SYMMETRIC, PETSC_TRUE);
-  for (const char *solver : {coupling::own_factor, "cholmod"})
-    time_factor(C, solver);
-
-  std::cout << "coordinates " << n << '\n';
-  const auto search = [&](std::shared_ptr<const coupling::InverseStiffness> inverse, const std::string &eigensolver)
-  {
-    const auto modes =
-        coupling::search_modes(MPI_COMM_SELF, {std::move(inverse), &frame.M, &frame.C}, eigensolver, {}, {});
-    modes->find(n_modes);
-    std::cout << "highest frequency [Hz] " << modes->modes(n_modes).omega(n_modes - 1) / 6.283185307179586 << '\n';
-  };
-  const coupling::SparseCholesky factor(frame.C, {});
-  for (const char *eigensolver : {"block-lanczos", "krylov-schur"})
-    tell_time(std::string("gestell's factor, without it: ") + eigensolver,
-              [&] { search(std::make_shared<coupling::InverseByFactor>(factor), eigensolver); });
-  PetscOptionsSetValue(nullptr, "-reduction_st_pc_factor_mat_solver_type", "cholmod");
-  for (const char *eigensolver : {"block-lanczos", "krylov-schur"})
-    tell_time(std::string("cholmod, with its factor: ") + eigensolver,
-              [&] { search(std::make_shared<coupling::InverseByFactor>(factor), eigensolver); });
+  tell_time("analysis of " + std::to_string(frame.C.rows()) + " coordinates",
+            [&]
+            {
+              const auto factor = coupling::SparseCholesky::without_numbers(frame.C, {});
+              std::cout << "entries of the factor " << factor.entries() << '\n';
+            });
 }
 
 } // namespace
@@ -202,14 +246,25 @@ void compare_eigensolvers(const fem::FrameMatrices &frame, int n_modes)
 int main(int n_arguments, char **arguments)
 {
   const std::string wish = n_arguments > 4 ? arguments[4] : "";
-  if (n_arguments != 4 && !(n_arguments == 6 && wish == "--deck") && !(n_arguments == 5 && wish == "--eigensolvers"))
+  int               nx = 0, ny = 0, nz = 0;
+  const bool        is_grid = n_arguments == 4 && std::sscanf(arguments[1], "grid:%dx%dx%d", &nx, &ny, &nz) == 3;
+  if (n_arguments != 4 && !(n_arguments == 6 && wish == "--deck") && !(n_arguments == 5 && wish == "--factors"))
   {
-    std::cerr << "usage: gestell_frame_bench CAD SIZE_IN_M MODES [--deck FILE.inp | --eigensolvers]\n";
+    std::cerr << "usage: gestell_frame_bench CAD SIZE_IN_M MODES [--deck FILE.inp | --factors]\n"
+                 "       gestell_frame_bench grid:NXxNYxNZ factors|analysis MODES\n";
     return 2;
   }
   try
   {
     coupling::use_one_blas_thread();
+    if (is_grid)
+    {
+      if (arguments[2] == std::string("analysis"))
+        analyse(grid(nx, ny, nz));
+      else
+        compare_factors(grid(nx, ny, nz), std::stoi(arguments[3]));
+      return 0;
+    }
     const fem::FrameSpecification frame   = steel_frame(arguments[1], std::stod(arguments[2]));
     const int                     n_modes = std::stoi(arguments[3]);
     const fem::Mesh               mesh    = fem::make_mesh(frame);
@@ -217,7 +272,7 @@ int main(int n_arguments, char **arguments)
     if (n_arguments == 6)
       write_deck(arguments[5], mesh, frame, n_modes);
     else if (!wish.empty())
-      compare_eigensolvers(fem::discretise(mesh, frame), n_modes);
+      compare_factors(fem::discretise(mesh, frame), n_modes);
     else
       solve(mesh, frame, n_modes, meshing);
   }

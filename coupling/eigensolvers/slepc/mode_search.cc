@@ -137,41 +137,6 @@ void require_done(const ModeProblem &problem, PetscErrorCode code, const std::st
                            "); check reduction.eigensolver and PETSC_OPTIONS");
 }
 
-/// Whether the options select a solver other than the available inverse.
-bool wants_other_solver()
-{
-  char      name[64] = "";
-  PetscBool solver = PETSC_FALSE, type = PETSC_FALSE, method = PETSC_FALSE;
-  PetscOptionsGetString(nullptr, prefix, "-st_pc_factor_mat_solver_type", name, sizeof name, &solver);
-  PetscOptionsHasName(nullptr, prefix, "-st_pc_type", &type);
-  PetscOptionsHasName(nullptr, prefix, "-st_ksp_type", &method);
-  return (solver && name != std::string(own_factor)) || type || method;
-}
-
-/// A(free, free) as PETSc's own.
-PetscOwned<Mat> assembled(const Eigen::SparseMatrix<double> &A, const std::vector<int> &free)
-{
-  std::vector<int> place(A.rows(), -1);
-  for (std::size_t k = 0; k < free.size(); ++k)
-    place[free[k]] = int(k);
-  std::vector<int>    begin{0}, column;
-  std::vector<double> value;
-  for (const int j : free)
-  {
-    for (Eigen::SparseMatrix<double>::InnerIterator a(A, j); a; ++a)
-      if (place[a.row()] >= 0)
-        column.push_back(place[a.row()]), value.push_back(a.value());
-    begin.push_back(int(column.size()));
-  }
-  const int n      = int(free.size());
-  Mat       result = nullptr;
-  require_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, n, n, 0, nullptr, &result), "modes");
-  PetscOwned<Mat> owned(result);
-  require_petsc(MatSeqAIJSetPreallocationCSR(result, begin.data(), column.data(), value.data()), "modes");
-  MatSetOption(result, MAT_SYMMETRIC, PETSC_TRUE);
-  return owned;
-}
-
 /// A problem of modes in the hands of SLEPc.
 class EigenSolver
 {
@@ -179,7 +144,8 @@ public:
   EigenSolver(MPI_Comm comm, const ModeProblem &problem, std::string name) : problem_(problem), name_(std::move(name))
   {
     const QuietPetsc quiet;
-    set_operators(comm);
+    C_ = stiffness_operator(comm, problem_);
+    M_ = mass_operator(comm, problem_);
     EPS eps = nullptr;
     require(EPSCreate(comm, &eps));
     eps_.reset(eps);
@@ -289,21 +255,6 @@ private:
     return type;
   }
 
-  void set_operators(MPI_Comm comm)
-  {
-    if (!wants_other_solver())
-    {
-      C_ = stiffness_operator(comm, problem_);
-      M_ = mass_operator(comm, problem_);
-      return;
-    }
-    if (!problem_.C())
-      throw std::invalid_argument("PETSC_OPTIONS choose a mode solver that needs the stiffness of the frame in one "
-                                  "process; run without mpirun, or remove options that begin with -reduction_st");
-    C_ = assembled(*problem_.C(), problem_.free());
-    M_ = assembled(problem_.M(), problem_.free());
-  }
-
   bool preconditioned() const { return is(EPSLOBPCG) || is(EPSGD) || is(EPSJD) || is(EPSRQCG); }
 
   /// Sets the available inverse C^-1 as the operator or as a preconditioner.
@@ -332,7 +283,6 @@ private:
     require(KSPGetPC(ksp, &pc));
     require(PCSetType(pc, PCCHOLESKY));
     require(PCFactorSetMatSolverType(pc, own_factor));
-    require(STSetFromOptions(st));
   }
 
   PetscOwned<Vec> vector() const

@@ -26,8 +26,7 @@ struct ModePencil
  *
  * `eigensolver` is "block-lanczos" (our own type), "krylov-schur" or any type of SLEPc; hyphens in the names of SLEPc's
  * types do not count.  Preconditioned ones (lobpcg, gd, jd, rqcg) use the inverse as preconditioner.  Options of PETSc
- * and SLEPc with the prefix reduction_ (PETSC_OPTIONS="-reduction_eps_view") have priority; a factor or a solver of
- * theirs (-reduction_st_pc_factor_mat_solver_type cholmod) receives copies of C22 and M22, in one process.
+ * and SLEPc with the prefix reduction_eps_ (PETSC_OPTIONS="-reduction_eps_view") have priority.
  *
  * @param known  modes found elsewhere, M-orthonormal: only further ones are computed.
  * @throws ConvergenceFailure, also with the messages of PETSc and SLEPc.

@@ -17,6 +17,7 @@ struct DestroyPetsc
   void operator()(VecScatter x) const { VecScatterDestroy(&x); }
   void operator()(IS x) const { ISDestroy(&x); }
   void operator()(EPS x) const { EPSDestroy(&x); }
+  void operator()(KSP x) const { KSPDestroy(&x); }
 };
 template <typename T>
 using PetscOwned = std::unique_ptr<std::remove_pointer_t<T>, DestroyPetsc>;

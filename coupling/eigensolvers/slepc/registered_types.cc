@@ -271,24 +271,17 @@ OwnSearch &own(EPS eps)
   return *static_cast<OwnSearch *>(eps->data);
 }
 
-/// Columns one by one through whatever solves in the spectral transformation.
+/// All columns at once through whatever solves in the spectral transformation.
 PetscErrorCode solve_by_transformation(ST st, Eigen::Ref<MatrixXd> X)
 {
-  const MatrixXd F = X;
-  Vec            f = nullptr, x = nullptr;
-  Mat            A = nullptr;
-  PetscCall(STGetMatrix(st, 0, &A));
-  PetscCall(MatCreateVecs(A, &x, &f));
-  for (Eigen::Index j = 0; j < X.cols(); ++j)
-  {
-    PetscCall(VecPlaceArray(f, F.col(j).data()));
-    PetscCall(VecPlaceArray(x, X.col(j).data()));
-    PetscCall(STMatSolve(st, f, x));
-    PetscCall(VecResetArray(f));
-    PetscCall(VecResetArray(x));
-  }
-  PetscCall(VecDestroy(&f));
-  return VecDestroy(&x);
+  MatrixXd F = X;
+  Mat      f = nullptr, x = nullptr;
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, int(F.rows()), int(F.cols()), F.data(), &f));
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, int(X.rows()), int(X.cols()), X.data(), &x));
+  PetscCall(MatDenseSetLDA(x, int(X.outerStride())));
+  PetscCall(STMatMatSolve(st, f, x));
+  PetscCall(MatDestroy(&f));
+  return MatDestroy(&x);
 }
 
 /// Finds the problem of the operators: one of this program, or one made of PETSc matrices in one process.

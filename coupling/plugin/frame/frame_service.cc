@@ -30,10 +30,11 @@ public:
     return reduce_frame(frame, options, progress);
   }
 
-  void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress) override
+  void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress,
+                         const std::string &factor) override
   {
     use_one_blas_thread();
-    coupling::add_modal_damping(frame, n_modes, progress);
+    coupling::add_modal_damping(frame, n_modes, progress, factor);
   }
 };
 

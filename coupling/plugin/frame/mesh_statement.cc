@@ -71,7 +71,7 @@ Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const
   try
   {
     raised = raised_frequencies(mesh_error.raised(frame), X, modes.ritz.omega.segment(modes.n_rigid, taken),
-                                modes.n_rigid > 0, available);
+                                modes.n_rigid > 0, available, reduced.factor);
   }
   catch (const NotEnoughMemory &)
   {

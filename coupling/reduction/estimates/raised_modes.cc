@@ -1,8 +1,7 @@
 #include "coupling/reduction/estimates/raised_modes.h"
 
-#include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/factors/stiffness_factor.h"
 #include "coupling/integration/system/dense_solvers.h"
-#include "coupling/parallel/team_factor.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 
 #include <algorithm>
@@ -10,27 +9,8 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-
-using SparseMatrix = Eigen::SparseMatrix<double>;
-
-/// Y <- A^-1 Y, by all ranks there are, which empty A.
-void solve(SparseMatrix &A, double available, Eigen::MatrixXd &Y)
-{
-  const Team *const team = Team::of_this_run();
-  if (!team)
-    return SparseCholesky(A, {}, available).solve_in_place(Y);
-  TeamFactor factor(*team, {nullptr, nullptr, {}, &A});
-  if (!factor.factorise())
-    throw NotPositiveDefinite(factor.failed());
-  factor.solve_in_place(Y);
-}
-
-} // namespace
-
 Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd &X, const Eigen::VectorXd &omega,
-                                   bool floats, double available)
+                                   bool floats, double available, const std::string &factor)
 {
   Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(frame.C.rows(), X.cols());
   for (Eigen::Index i = 0; i < X.rows(); ++i)
@@ -43,7 +23,11 @@ Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd
   if (floats)
     frame.C += s * frame.M;
   frame.C.makeCompressed();
-  solve(frame.C, available, Y);
+  {
+    const auto inverse = make_factor(factor, {nullptr, nullptr, {}, &frame.C, available});
+    inverse->factorise();
+    inverse->solve_in_place(Y);
+  }
 
   const Eigen::MatrixXd       MY = symmetric_product(frame.M, Y), M = Y.transpose() * MY;
   const Eigen::MatrixXd       C = Y.transpose() * F - s * M; // C3 Y = M3 X - s M3 Y

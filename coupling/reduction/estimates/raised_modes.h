@@ -19,12 +19,13 @@ namespace gestell::coupling
  * @param omega      of the modes X, ascending
  * @param floats     whether there are rigid-body modes, to which the modes are M-orthogonal
  * @param available  memory for the factor [byte]
+ * @param factor     see make_factor()
  * @throws NotEnoughMemory, NotPositiveDefinite
  *
  * Source: docs/theory/mesh_error.md (4a).
  */
 Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd &X, const Eigen::VectorXd &omega,
-                                   bool floats, double available);
+                                   bool floats, double available, const std::string &factor = "");
 
 /// Error of a frequency of the quadratic mesh from that of degree three, relative to the latter:
 /// docs/theory/mesh_error.md (4b).

@@ -25,7 +25,7 @@ struct CraigBampton
   {
     return {"craig-bampton",
             "static shapes of the interface and fixed-interface modes",
-            {"tolerance", "modes", "frequency", "inside", "eigensolver", "inertia_relief"}};
+            {"tolerance", "modes", "frequency", "inside", "factor", "eigensolver", "inertia_relief"}};
   }
   static BasisFunction basis;
 };

@@ -17,7 +17,7 @@ struct FreeInterface
   {
     return {"free-interface",
             "static shapes of the interface and modes of the frame as it is supported",
-            {"modes", "frequency", "eigensolver", "inertia_relief"}};
+            {"modes", "frequency", "factor", "eigensolver", "inertia_relief"}};
   }
   static BasisFunction basis;
 };

@@ -22,7 +22,7 @@ struct Guyan
 {
   static ReductionEntry entry()
   {
-    return {"guyan", "static shapes of the interface, no modes", {"tolerance", "frequency", "inertia_relief"}};
+    return {"guyan", "static shapes of the interface, no modes", {"tolerance", "frequency", "factor", "inertia_relief"}};
   }
   static BasisFunction basis;
 };

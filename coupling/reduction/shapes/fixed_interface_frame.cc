@@ -1,9 +1,8 @@
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
 
 #include "coupling/algebra/sparse_cholesky.h"
-#include "coupling/eigensolvers/slepc/mode_search.h"
+#include "coupling/factors/petsc_factor.h"
 #include "coupling/integration/system/dense_solvers.h"
-#include "coupling/parallel/team_factor.h"
 #include "fem/assembly/rigid_motions.h"
 #include "fem/mesh/memory_estimate.h"
 #include "fem/values/frame_matrices.h"
@@ -167,29 +166,7 @@ SparseMatrix lower_triangle_held(const SparseMatrix &C, const std::vector<int> &
   return lower;
 }
 
-[[noreturn]] void refuse_indefinite(int coordinate)
-{
-  throw std::invalid_argument(
-      "reduction: C22, the stiffness of the frame with its interface fixed, is not positive definite at DOF " +
-      std::to_string(coordinate) + "; it must be symmetric and positive definite");
-}
-
-std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, const std::vector<int> &q1)
-{
-  try
-  {
-    auto factor = std::make_unique<SparseCholesky>(frame.C, q1, fem::available_memory());
-    if (factor->pivot_ratio() < suspicious_pivots)
-      require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
-    return factor;
-  }
-  catch (const NotPositiveDefinite &failure)
-  {
-    require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
-    refuse_indefinite(failure.row);
-  }
-}
-
+/// @throws std::invalid_argument if there are more ranks than cells or, for frames without cells, than coordinates.
 void require_work_for_all(int n_ranks, const fem::FrameMatrices &frame)
 {
   const int         parts  = frame.n_cells > 0 ? frame.n_cells : int(frame.C.rows());
@@ -204,91 +181,37 @@ void require_work_for_all(int n_ranks, const fem::FrameMatrices &frame)
 } // namespace
 
 FixedInterfaceFrame::FixedInterfaceFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1,
-                                         std::string eigensolver)
-    : frame_(frame), q1_(q1), eigensolver_(std::move(eigensolver)), team_(on_ranks(q1))
+                                         std::string factor, std::string eigensolver)
+    : frame_(frame), q1_(q1), factor_name_(std::move(factor)), eigensolver_(std::move(eigensolver))
 {
-  factorise();
-}
-
-/// The factor divided among the processes; null in one process.
-/// @throws std::invalid_argument if there are more ranks than cells or, for frames without cells, than coordinates.
-std::unique_ptr<TeamFactor> FixedInterfaceFrame::on_ranks(const std::vector<int> &q1) const
-{
-  const Team *const team = Team::of_this_run();
-  if (!team)
-    return nullptr;
-  require_work_for_all(team->ranks().size(), frame_);
-  return std::make_unique<TeamFactor>(*team, MatricesOnFirst{&frame_.C, &frame_.M, q1});
-}
-
-void FixedInterfaceFrame::factorise()
-{
-  if (!team_)
+  require_work_for_all(ranks_of_factors().size(), frame);
+  factor_ = factor_of(q1);
+  try
   {
-    factor_ = factor_held(frame_, q1_);
-    return;
+    factor_->factorise();
+    if (!(factor_->regularity() >= suspicious_pivots))
+      require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
   }
-  const bool positive = team_->factorise();
-  if (!positive || !(team_->pivot_ratio() >= suspicious_pivots))
-    require_no_free_motion(frame_, q1_, lower_triangle_held(frame_.C, q1_));
-  if (!positive)
-    refuse_indefinite(team_->failed());
+  catch (const NotPositiveDefinite &failure)
+  {
+    require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
+    throw std::invalid_argument(
+        "reduction: C22, the stiffness of the frame with its interface fixed, is not positive definite" +
+        (failure.row >= 0 ? " at DOF " + std::to_string(failure.row) : std::string()) +
+        "; it must be symmetric and positive definite");
+  }
 }
 
-FixedInterfaceFrame::~FixedInterfaceFrame() = default;
-
-void FixedInterfaceFrame::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const
+std::unique_ptr<StiffnessFactor> FixedInterfaceFrame::factor_of(const std::vector<int> &held) const
 {
-  if (team_)
-    return team_->solve_in_place(X);
-  for (const int i : q1_)
-    X.row(i).setZero();
-  factor_->solve_in_place(X);
-}
-
-void FixedInterfaceFrame::release()
-{
-  if (team_)
-    team_->release();
-  else
-    factor_->release();
-}
-
-void FixedInterfaceFrame::restore()
-{
-  if (team_)
-    team_->factorise();
-  else if (factor_->released())
-    factor_->factorise(frame_.C);
-}
-
-Inertia FixedInterfaceFrame::below(double omega) const
-{
-  if (team_)
-    return team_->below(omega);
-  return factor_->inertia(frame_.C, frame_.M, omega * omega);
+  return make_factor(factor_name_, {&frame_.C, &frame_.M, held, nullptr, fem::available_memory()});
 }
 
 Inertia FixedInterfaceFrame::below_if_free(double omega)
 {
-  if (team_)
-  {
-    if (!free_team_)
-      free_team_ = on_ranks({});
-    return free_team_->below(omega);
-  }
   if (!free_factor_)
-    free_factor_ = std::make_unique<SparseCholesky>(SparseCholesky::without_numbers(frame_.C, {}));
-  return free_factor_->inertia(frame_.C, frame_.M, omega * omega);
-}
-
-std::unique_ptr<ModeSearch> FixedInterfaceFrame::search(const BlockLanczos::Options &options,
-                                                        const LowestModes           &known) const
-{
-  if (team_)
-    return team_->search(eigensolver_, options, known);
-  return search_modes(MPI_COMM_SELF, {std::make_shared<InverseByFactor>(*factor_, q1_), &frame_.M, &frame_.C},
-                      eigensolver_, options, known);
+    free_factor_ = factor_of({});
+  return free_factor_->below(omega);
 }
 
 Eigen::MatrixXd FixedInterfaceFrame::constraint_modes() const

@@ -15,7 +15,7 @@ FixedInterfaceFrame factorised(const fem::FrameMatrices &frame, const ReductionO
 {
   if (progress)
     progress("factorisation", -1.);
-  return {frame, frame.interface_coordinates(), options.eigensolver};
+  return {frame, frame.interface_coordinates(), options.factor, options.eigensolver};
 }
 
 MatrixXd acceleration_load(const fem::FrameMatrices &frame)

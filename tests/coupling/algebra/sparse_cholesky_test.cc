@@ -1,7 +1,6 @@
 #include "coupling/algebra/sparse_cholesky.h"
 
 #include "coupling/algebra/dense_modes.h"
-#include "coupling/algebra/front_division.h"
 #include "coupling/algebra/node_ordering.h"
 #include "tests/support/cube.h"
 #include "tests/support/lattice.h"
@@ -178,57 +177,13 @@ TEST(Inertia, AdmitsMassesWhereThereIsNoStiffness)
 TEST(NodeOrdering, IsAPermutationThatKeepsNodesTogether)
 {
   const auto     frame = block();
-  cholmod_common common;
-  cholmod_start(&common);
-  std::vector<int> order = coupling::node_ordering(frame.C, {}, common);
-  cholmod_finish(&common);
+  std::vector<int> order = coupling::node_ordering(frame.C, {});
   for (std::size_t k = 0; k < order.size(); k += 3)
     EXPECT_EQ(order[k] / 3, order[k + 2] / 3);
   std::sort(order.begin(), order.end());
   std::vector<int> all(frame.C.rows());
   std::iota(all.begin(), all.end(), 0);
   EXPECT_EQ(order, all);
-}
-
-/// Columns of each rank, and of the top behind them.
-std::vector<std::vector<int>> columns_of(const coupling::FrontDivision &division, int n_ranks)
-{
-  std::vector<std::vector<int>> columns;
-  for (int rank = 0; rank < n_ranks; ++rank)
-  {
-    const auto share = division.share(rank);
-    columns.emplace_back(share.order.begin(), share.order.begin() + share.columns());
-  }
-  columns.push_back(division.top().order);
-  return columns;
-}
-
-TEST(FrontDivision, GivesEveryCoordinateToOneRankOrToTheTop)
-{
-  const auto frame  = block();
-  const auto factor = SparseCholesky::without_numbers(frame.C, {0, 5, 6});
-  for (const int n_ranks : {1, 2, 3, 8})
-  {
-    std::vector<int> all, expected(frame.C.rows());
-    for (const auto &columns : columns_of({factor.fronts(), n_ranks}, n_ranks))
-      all.insert(all.end(), columns.begin(), columns.end());
-    std::sort(all.begin(), all.end());
-    std::iota(expected.begin(), expected.end(), 0);
-    EXPECT_EQ(all, expected) << n_ranks;
-  }
-}
-
-// A long beam: METIS cuts it across, 3 x 5 x 5 coordinates in a plane of points, into parts of nearly one size.
-TEST(FrontDivision, HalvesABeam)
-{
-  test::Lattice lattice;
-  lattice.nx = 64, lattice.ny = 5, lattice.nz = 5;
-  const auto factor  = SparseCholesky::without_numbers(test::frame_of(lattice).C, {});
-  const auto columns = columns_of({factor.fronts(), 2}, 2);
-  const int  n       = factor.size();
-  EXPECT_GT(columns[0].size(), 0.4 * n);
-  EXPECT_GT(columns[1].size(), 0.4 * n);
-  EXPECT_LT(columns[2].size(), 0.1 * n);
 }
 
 } // namespace

@@ -140,6 +140,7 @@ void expect_options(IngredientsUnderChange<Frame> &recipe)
   recipe.expect("reduction.method", [](Options &o) { o.method = "free-interface"; });
   recipe.expect("reduction.tolerance", [](Options &o) { o.tolerance = 0.02; });
   recipe.expect("reduction.frequency", [](Options &o) { o.frequency = 100.; });
+  recipe.expect("reduction.factor", [](Options &o) { o.factor = "cholmod"; });
   recipe.expect("reduction.eigensolver", [](Options &o) { o.eigensolver = "krylovschur"; });
   recipe.expect("reduction.inertia relief", [](Options &o) { o.inertia_relief = true; });
 }

@@ -58,21 +58,6 @@ struct HeldLattice
   }
 };
 
-/// An option of PETSc while it lives.
-class Option
-{
-public:
-  Option(std::string name, const char *value) : name_(std::move(name))
-  {
-    fem::petsc_session();
-    PetscOptionsSetValue(nullptr, name_.c_str(), value);
-  }
-  ~Option() { PetscOptionsClearValue(nullptr, name_.c_str()); }
-
-private:
-  std::string name_;
-};
-
 using Eigensolver = ::testing::TestWithParam<const char *>;
 
 // Frequencies are better than the tolerance by its square, but LOBPCG's orthonormality ends at its tolerance 1e-8.
@@ -131,21 +116,6 @@ TEST_P(Eigensolver, FindsTheModeThatIsMissingAmongThoseKnown)
 }
 
 INSTANTIATE_TEST_SUITE_P(OfOursAndOfSlepc, Eigensolver, ::testing::Values("block-lanczos", "krylov-schur", "lobpcg"));
-
-TEST(EigensolverOptions, OfPetscChooseTypeAndFactor)
-{
-  const HeldLattice lattice;
-  const Option      solver("-reduction_st_pc_factor_mat_solver_type", "cholmod");
-  const auto        search  = [&] { return lattice.search("block-lanczos"); };
-  const auto        of_ours = search();
-  of_ours->find(10);
-  EXPECT_LT(lattice.error_of(of_ours->modes(10)), 1e-8);
-  const Option type("-reduction_eps_type", "krylovschur");
-  const auto   of_theirs = search();
-  of_theirs->find(10);
-  EXPECT_LT(lattice.error_of(of_theirs->modes(10)), 1e-8);
-  EXPECT_THROW(of_theirs->modes(60), std::logic_error) << "nobody looked for so many";
-}
 
 TEST(EigensolverOptions, ThatPetscDoesNotKnowAreToldAsItTells)
 {

@@ -45,9 +45,11 @@ TEST(Team, SolvesAndFindsModesAsOneProcessDoes)
     const Answer answer = trial("compare", ranks);
     EXPECT_EQ(answer.exit_code, 0) << answer.text;
     EXPECT_FALSE(answer.says("differs")) << answer.text;
-    for (const char *what : {"factor", "solution", "frequencies", "mass of the modes", "shapes", "number", "rest",
-                             "rest by krylov-schur", "mass by krylov-schur", "rest by lobpcg", "mass by lobpcg",
-                             "solution with the matrix given away", "place of what is not positive"})
+    for (const char *what : {"regularity", "solution", "frequencies", "mass of the modes", "shapes", "number",
+                             "rest by block-lanczos", "mass by block-lanczos", "rest by krylov-schur",
+                             "mass by krylov-schur", "rest by lobpcg", "mass by lobpcg",
+                             "solution with the matrix given away", "refusal of what is not positive",
+                             "refusal of a factor of one process"})
       EXPECT_TRUE(answer.says("the " + std::string(what) + " agrees")) << what << answer.text;
   }
 }

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "coupling/eigensolvers/block_lanczos.h"
+#include "coupling/factors/row_distribution.h"
+#include "coupling/factors/stiffness_factor.h"
+#include "fem/parallel/ranks.h"
+
+#include <memory>
+#include <string>
+
+namespace gestell::coupling
+{
+
+/**
+ * The part of this rank of a factor by PETSc.  Every function is collective; those with "on first" read and write
+ * columns of rank 0.
+ *
+ * The matrix is factored by MUMPS: L L^T for solutions, and L D L^T with pivots for the inertia of C - sigma M.  Options
+ * of PETSc replace the first.
+ */
+class DistributedFactor
+{
+public:
+  DistributedFactor(const fem::Ranks &ranks, const FactorMatrices &on_first);
+  ~DistributedFactor();
+
+  /// @returns whether C is positive definite.
+  /// @throws NotEnoughMemory on all ranks.
+  bool   factorise();
+  double regularity() const; ///< x^T C x / x^T diag(C) x of a motion with little stiffness
+  void   release();
+
+  /// Own rows of X <- C^-1 X.
+  void    solve(Eigen::Ref<Eigen::MatrixXd> X) const;
+  void    solve_on_first(Eigen::Ref<Eigen::MatrixXd> X) const;
+  Inertia inertia(double sigma) const;
+
+  std::unique_ptr<ModeSearch> search(const std::string &eigensolver, const BlockLanczos::Options &options,
+                                     const LowestModes *known_on_first) const;
+  /// Modes with their rows on rank 0, [0 x count] elsewhere.
+  LowestModes on_first(LowestModes own) const;
+
+private:
+  struct Solver;
+  PetscOwned<Mat> shifted(double sigma) const;
+
+  fem::Ranks              ranks_;
+  double                  available_;
+  RowDistribution         rows_;
+  PetscOwned<Mat>         C_, M_;
+  std::unique_ptr<Solver> solver_;
+};
+
+} // namespace gestell::coupling

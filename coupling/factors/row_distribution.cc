@@ -1,0 +1,278 @@
+#include "coupling/factors/row_distribution.h"
+
+#include "coupling/algebra/node_ordering.h"
+
+#include <petscsf.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Rows of a sparse matrix.
+struct SparseRowBlock
+{
+  std::vector<int>    begin{0}, column;
+  std::vector<double> value;
+};
+
+/// The free coordinates in the order of nested dissection.
+std::vector<int> order_of_free(const SparseMatrix &A, const std::vector<int> &held)
+{
+  std::vector<char> marks(A.rows(), 0);
+  for (const int i : held)
+    marks[i] = 1;
+  std::vector<int> order = node_ordering(A, held.empty() ? std::vector<char>() : marks);
+  order.erase(std::remove_if(order.begin(), order.end(), [&](int i) { return marks[i] != 0; }), order.end());
+  return order;
+}
+
+/// Rows [first, end) of A in another order; `place` is the row of a coordinate, or -1.
+SparseRowBlock rows_in_order(const SparseMatrix &A, const std::vector<int> &order, const std::vector<int> &place,
+                             int first, int end)
+{
+  SparseRowBlock                      block;
+  std::vector<std::pair<int, double>> row;
+  for (int k = first; k < end; ++k)
+  {
+    row.clear();
+    for (SparseMatrix::InnerIterator a(A, order[k]); a; ++a) // column = row, as A is symmetric
+      if (place[a.row()] >= 0)
+        row.emplace_back(place[a.row()], a.value());
+    std::sort(row.begin(), row.end());
+    for (const auto &[column, value] : row)
+      block.column.push_back(column), block.value.push_back(value);
+    block.begin.push_back(int(block.column.size()));
+  }
+  return block;
+}
+
+} // namespace
+
+RowDistribution::RowDistribution(const fem::Ranks &ranks, const SparseMatrix *A, const std::vector<int> &held)
+    : ranks_(ranks), n_(A ? int(A->rows()) : 0), begin_(ranks.size() + 1, 0)
+{
+  ranks.agree(
+      [&]
+      {
+        if (ranks.first())
+          order_ = order_of_free(*A, held);
+      });
+  std::ptrdiff_t free = std::ptrdiff_t(order_.size());
+  ranks_.broadcast(free);
+  ranks_.broadcast(n_);
+  for (int rank = 0; rank <= ranks.size(); ++rank)
+    begin_[rank] = int(free * rank / ranks.size());
+}
+
+PetscOwned<Mat> RowDistribution::distributed(const SparseMatrix *A) const
+{
+  SparseRowBlock own;
+  if (ranks_.first())
+  {
+    std::vector<int> place(n_, -1);
+    for (int k = 0; k < size(); ++k)
+      place[order_[k]] = k;
+    for (int rank = 1; rank < ranks_.size(); ++rank)
+    {
+      const SparseRowBlock theirs = rows_in_order(*A, order_, place, begin_[rank], begin_[rank + 1]);
+      ranks_.send(theirs.begin, rank);
+      ranks_.send(theirs.column, rank);
+      ranks_.send(theirs.value, rank);
+    }
+    own = rows_in_order(*A, order_, place, 0, owned());
+  }
+  else
+    own = {ranks_.receive<int>(0), ranks_.receive<int>(0), ranks_.receive<double>(0)};
+
+  Mat result = nullptr;
+  require_petsc(MatCreate(ranks_.comm(), &result), "distribution");
+  PetscOwned<Mat> made(result);
+  require_petsc(MatSetSizes(result, owned(), owned(), size(), size()), "distribution");
+  require_petsc(MatSetType(result, MATAIJ), "distribution");
+  require_petsc(MatSeqAIJSetPreallocationCSR(result, own.begin.data(), own.column.data(), own.value.data()),
+                "distribution"); // the one of the two that fits the number of ranks
+  require_petsc(MatMPIAIJSetPreallocationCSR(result, own.begin.data(), own.column.data(), own.value.data()),
+                "distribution");
+  MatSetOption(result, MAT_SYMMETRIC, PETSC_TRUE);
+  MatSetOption(result, MAT_SYMMETRY_ETERNAL, PETSC_TRUE);
+  return made;
+}
+
+MatrixXd RowDistribution::rows_of(int rank, const Eigen::Ref<const MatrixXd> &X) const
+{
+  MatrixXd rows(begin_[rank + 1] - begin_[rank], X.cols());
+  for (Eigen::Index j = 0; j < X.cols(); ++j)
+    for (Eigen::Index k = 0; k < rows.rows(); ++k)
+      rows(k, j) = X(order_[begin_[rank] + k], j);
+  return rows;
+}
+
+MatrixXd RowDistribution::deal_out(const Eigen::Ref<const MatrixXd> &X, int columns) const
+{
+  if (ranks_.first())
+  {
+    for (int rank = 1; rank < ranks_.size(); ++rank)
+    {
+      const MatrixXd theirs = rows_of(rank, X);
+      ranks_.send(theirs.data(), theirs.size(), rank);
+    }
+    return rows_of(0, X);
+  }
+  MatrixXd own(owned(), columns);
+  ranks_.receive(own.data(), own.size(), 0);
+  return own;
+}
+
+void RowDistribution::collect(const MatrixXd &rows, Eigen::Ref<MatrixXd> X) const
+{
+  if (!ranks_.first())
+    return ranks_.send(rows.data(), rows.size(), 0);
+  X.setZero();
+  const auto put = [&](int rank, const MatrixXd &values)
+  {
+    for (Eigen::Index j = 0; j < values.cols(); ++j)
+      for (Eigen::Index k = 0; k < values.rows(); ++k)
+        X(order_[begin_[rank] + k], j) = values(k, j);
+  };
+  put(0, rows);
+  for (int rank = 1; rank < ranks_.size(); ++rank)
+  {
+    MatrixXd theirs(begin_[rank + 1] - begin_[rank], rows.cols());
+    ranks_.receive(theirs.data(), theirs.size(), rank);
+    put(rank, theirs);
+  }
+}
+
+LocalRows::LocalRows(const RowDistribution &rows, const std::vector<Mat> &matrices)
+    : first_(rows.first()), owned_(rows.owned())
+{
+  const auto remove_repetitions = [&]
+  {
+    std::sort(ghosts_.begin(), ghosts_.end());
+    ghosts_.erase(std::unique(ghosts_.begin(), ghosts_.end()), ghosts_.end());
+  };
+  for (const Mat A : matrices)
+    for (int i = first_; i < first_ + owned_; ++i)
+    {
+      PetscInt        count   = 0;
+      const PetscInt *columns = nullptr;
+      require_petsc(MatGetRow(A, i, &count, &columns, nullptr), "ghosts");
+      std::copy_if(columns, columns + count, std::back_inserter(ghosts_),
+                   [&](int j) { return j < first_ || j >= first_ + owned_; });
+      MatRestoreRow(A, i, &count, &columns, nullptr);
+      constexpr int often = 1 << 14; // rows after which repetitions go: they would take memory
+      if (i % often == 0)
+        remove_repetitions();
+    }
+  remove_repetitions();
+  const PetscInt          *begin = nullptr; // of the ranks' rows
+  std::vector<PetscSFNode> owners;
+  MatGetOwnershipRanges(matrices.front(), &begin);
+  int rank = 0;
+  for (const int g : ghosts_)
+  {
+    while (g >= begin[rank + 1])
+      ++rank;
+    owners.push_back({rank, g - begin[rank]});
+  }
+  PetscSF exchange = nullptr;
+  require_petsc(PetscSFCreate(PetscObjectComm(PetscObject(matrices.front())), &exchange), "ghosts");
+  exchange_.reset(exchange);
+  require_petsc(PetscSFSetGraph(exchange, owned_, int(owners.size()), nullptr, PETSC_COPY_VALUES, owners.data(),
+                                PETSC_COPY_VALUES),
+                "ghosts");
+}
+
+fem::SparseMatrix LocalRows::part_of(Mat A) const
+{
+  const auto local = [&](int row)
+  {
+    return row >= first_ && row < first_ + owned_
+               ? row - first_
+               : owned_ + int(std::lower_bound(ghosts_.begin(), ghosts_.end(), row) - ghosts_.begin());
+  };
+  std::vector<std::vector<std::pair<int, double>>> across(ghosts_.size()); // couplings of a ghost to own rows
+  std::vector<int>                                 begin{0}, column;
+  std::vector<double>                              value;
+  for (int i = 0; i < owned_; ++i)
+  {
+    PetscInt           count   = 0;
+    const PetscInt    *columns = nullptr;
+    const PetscScalar *values  = nullptr;
+    require_petsc(MatGetRow(A, first_ + i, &count, &columns, &values), "own rows");
+    for (int a = 0; a < count; ++a)
+      if (const int j = local(columns[a]); j < owned_)
+        column.push_back(j), value.push_back(values[a]);
+    for (int a = 0; a < count; ++a)
+      if (const int j = local(columns[a]); j >= owned_)
+      {
+        column.push_back(j), value.push_back(0.5 * values[a]);
+        across[j - owned_].emplace_back(i, 0.5 * values[a]);
+      }
+    MatRestoreRow(A, first_ + i, &count, &columns, &values);
+    begin.push_back(int(column.size()));
+  }
+  for (const auto &row : across)
+  {
+    for (const auto &[i, v] : row)
+      column.push_back(i), value.push_back(v);
+    begin.push_back(int(column.size()));
+  }
+  return fem::SparseMatrix(SparseMatrix(
+      Eigen::Map<const SparseMatrix>(count(), count(), begin.back(), begin.data(), column.data(), value.data())));
+}
+
+namespace
+{
+
+/// A type of MPI for a row of numbers.
+class RowType
+{
+public:
+  explicit RowType(int width)
+  {
+    if (width == 1)
+      return;
+    MPI_Type_contiguous(width, MPI_DOUBLE, &type_);
+    MPI_Type_commit(&type_);
+  }
+  ~RowType()
+  {
+    if (type_ != MPI_DOUBLE)
+      MPI_Type_free(&type_);
+  }
+  RowType(const RowType &)            = delete;
+  RowType &operator=(const RowType &) = delete;
+  MPI_Datatype get() const { return type_; }
+
+private:
+  MPI_Datatype type_ = MPI_DOUBLE; // PETSc reduces a single number as such only
+};
+
+} // namespace
+
+void LocalRows::complete(double *X, int width) const
+{
+  const RowType row(width);
+  double *const ghosts = X + std::ptrdiff_t(owned_) * width;
+  require_petsc(PetscSFBcastBegin(exchange_.get(), row.get(), X, ghosts, MPI_REPLACE), "ghosts");
+  require_petsc(PetscSFBcastEnd(exchange_.get(), row.get(), X, ghosts, MPI_REPLACE), "ghosts");
+}
+
+void LocalRows::add_up(double *X, int width) const
+{
+  const RowType row(width);
+  double *const ghosts = X + std::ptrdiff_t(owned_) * width;
+  require_petsc(PetscSFReduceBegin(exchange_.get(), row.get(), ghosts, X, MPI_SUM), "ghosts");
+  require_petsc(PetscSFReduceEnd(exchange_.get(), row.get(), ghosts, X, MPI_SUM), "ghosts");
+}
+
+} // namespace gestell::coupling
