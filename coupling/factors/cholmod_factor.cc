@@ -76,10 +76,7 @@ public:
     require_memory();
   }
 
-  double regularity() const override
-  {
-    return cholmod_l_rcond(L_, &common_);
-  }
+  double regularity() const override { return cholmod_l_rcond(L_, &common_); }
 
   void release() override { cholmod_l_free_factor(&L_, &common_); }
 
@@ -88,13 +85,13 @@ public:
     for (const int i : matrices_.held)
       X.row(i).setZero();
     cholmod_dense F{};
-    F.nrow  = X.rows();
-    F.ncol  = X.cols();
-    F.d     = X.outerStride();
-    F.nzmax = F.d * F.ncol;
-    F.x     = X.data();
-    F.xtype = CHOLMOD_REAL;
-    F.dtype = CHOLMOD_DOUBLE;
+    F.nrow                  = X.rows();
+    F.ncol                  = X.cols();
+    F.d                     = X.outerStride();
+    F.nzmax                 = F.d * F.ncol;
+    F.x                     = X.data();
+    F.xtype                 = CHOLMOD_REAL;
+    F.dtype                 = CHOLMOD_DOUBLE;
     cholmod_dense *solution = cholmod_l_solve(CHOLMOD_A, L_, &F, &common_);
     if (!solution)
       throw std::bad_alloc();

@@ -157,10 +157,12 @@ bool options_choose_solver()
 struct DistributedFactor::Solver
 {
   PetscOwned<Mat> factor;
+  PetscOwned<Mat> C; ///< of a chosen solver
   PetscOwned<KSP> chosen;
 
-  bool make_chosen(MPI_Comm comm, Mat C)
+  bool make_chosen(MPI_Comm comm, PetscOwned<Mat> stiffness)
   {
+    C       = std::move(stiffness);
     KSP ksp = nullptr;
     PC  pc  = nullptr;
     require(KSPCreate(comm, &ksp));
@@ -169,7 +171,7 @@ struct DistributedFactor::Solver
     PetscBool given    = PETSC_FALSE;
     PetscOptionsGetString(nullptr, solver_prefix, "-pc_type", type, sizeof type, &given);
     const bool direct = !given || type == std::string(PCCHOLESKY) || type == std::string(PCLU);
-    require(KSPSetOperators(ksp, C, C));
+    require(KSPSetOperators(ksp, C.get(), C.get()));
     require(KSPSetOptionsPrefix(ksp, solver_prefix));
     require(KSPSetType(ksp, direct ? KSPPREONLY : KSPCG));
     constexpr double rounding = 1e-12; // relative residual: what a direct solver leaves, roughly
@@ -185,13 +187,13 @@ struct DistributedFactor::Solver
   }
 
   /// F [all columns] -> X
-  void solve(Mat C, Mat F, Mat X) const
+  void solve(Mat F, Mat X) const
   {
     if (factor)
       return require(MatMatSolve(factor.get(), F, X));
     require(KSPMatSolve(chosen.get(), F, X));
     Mat product = nullptr;
-    require(MatMatMult(C, X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+    require(MatMatMult(C.get(), X, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
     const PetscOwned<Mat> residual(product);
     require(MatAXPY(product, -1., F, SAME_NONZERO_PATTERN));
     PetscReal left = 0., load = 0.;
@@ -208,18 +210,30 @@ struct DistributedFactor::Solver
 };
 
 DistributedFactor::DistributedFactor(const fem::Ranks &ranks, const FactorMatrices &on_first)
-    : ranks_(ranks), available_(ranks.first() ? on_first.available : fem::available_memory()),
+    : ranks_(ranks), on_first_(on_first), available_(ranks.first() ? on_first.available : fem::available_memory()),
       rows_(ranks, ranks.first() ? &on_first.stiffness() : nullptr, on_first.held)
 {
   fem::petsc_session();
-  const QuietPetsc quiet;
-  C_            = rows_.distributed(ranks.first() ? &on_first.stiffness() : nullptr);
-  bool has_mass = on_first.M != nullptr;
-  ranks.broadcast(has_mass);
-  if (has_mass)
-    M_ = rows_.distributed(on_first.M);
+  bool given = on_first.given_C != nullptr;
+  ranks.broadcast(given);
+  if (!given)
+    return;
+  given_C_ = rows_.distributed(on_first.given_C);
   if (on_first.given_C)
     Eigen::SparseMatrix<double>().swap(*on_first.given_C);
+}
+
+PetscOwned<Mat> DistributedFactor::stiffness() const
+{
+  if (!given_C_)
+    return rows_.distributed(on_first_.C);
+  PetscObjectReference(PetscObject(given_C_.get()));
+  return PetscOwned<Mat>(given_C_.get());
+}
+
+PetscOwned<Mat> DistributedFactor::mass() const
+{
+  return rows_.distributed(on_first_.M);
 }
 
 DistributedFactor::~DistributedFactor() = default;
@@ -229,18 +243,22 @@ bool DistributedFactor::factorise()
   if (solver_ || rows_.size() == 0)
     return true;
   const QuietPetsc quiet;
+  auto             C        = stiffness();
+  const VectorXd   D        = diagonal_of(C.get(), rows_.owned());
   auto             solver   = std::make_unique<Solver>();
   bool             definite = true;
   if (options_choose_solver())
-    definite = solver->make_chosen(ranks_.comm(), C_.get());
+    definite = solver->make_chosen(ranks_.comm(), std::move(C));
   else
   {
-    solver->factor = mumps_factor(ranks_, C_.get(), true, available_);
+    solver->factor = mumps_factor(ranks_, C.get(), true, available_);
     definite       = solver->factor != nullptr;
   }
-  if (definite)
-    solver_ = std::move(solver);
-  return definite;
+  if (!definite)
+    return false;
+  solver_     = std::move(solver);
+  regularity_ = regularity_of(D);
+  return true;
 }
 
 void DistributedFactor::release()
@@ -256,7 +274,7 @@ void DistributedFactor::solve(Eigen::Ref<MatrixXd> X) const
   MatrixXd         F = X, result(X.rows(), X.cols());
   const auto       f = dense_columns(ranks_.comm(), rows_.owned(), rows_.size(), F);
   const auto       x = dense_columns(ranks_.comm(), rows_.owned(), rows_.size(), result);
-  solver_->solve(C_.get(), f.get(), x.get());
+  solver_->solve(f.get(), x.get());
   X = result;
 }
 
@@ -277,13 +295,10 @@ void DistributedFactor::solve_on_first(Eigen::Ref<MatrixXd> X) const
   }
 }
 
-double DistributedFactor::regularity() const
+double DistributedFactor::regularity_of(const VectorXd &D) const
 {
-  if (rows_.size() == 0)
-    return 1.;
-  const VectorXd D = diagonal_of(C_.get(), rows_.owned());
-  VectorXd       x = irregular(rows_.first(), rows_.owned());
-  double         quotient = 0.;
+  VectorXd x        = irregular(rows_.first(), rows_.owned());
+  double   quotient = 0.;
   for (int round = 0; round < 2; ++round) // of inverse iteration, which makes motions with little stiffness prevail
   {
     const VectorXd f = D.cwiseProduct(x);
@@ -297,30 +312,23 @@ double DistributedFactor::regularity() const
   return quotient;
 }
 
-PetscOwned<Mat> DistributedFactor::shifted(double sigma) const
-{
-  Mat A = nullptr;
-  require(MatDuplicate(C_.get(), MAT_COPY_VALUES, &A));
-  PetscOwned<Mat> made(A);
-  require(MatAXPY(A, -sigma, M_.get(), DIFFERENT_NONZERO_PATTERN));
-  return made;
-}
-
 Inertia DistributedFactor::inertia(double sigma) const
 {
   if (rows_.size() == 0)
     return {};
   const QuietPetsc quiet;
-  const auto       A        = shifted(sigma);
-  const auto       factor   = mumps_factor(ranks_, A.get(), false, available_);
-  PetscInt         negative = 0, zero = 0, positive = 0;
+  const auto       A = stiffness(); // C - sigma M
+  const VectorXd   D = diagonal_of(A.get(), rows_.owned());
+  require(MatAXPY(A.get(), -sigma, mass().get(), DIFFERENT_NONZERO_PATTERN));
+  const auto factor   = mumps_factor(ranks_, A.get(), false, available_);
+  PetscInt   negative = 0, zero = 0, positive = 0;
   require(MatGetInertia(factor.get(), &negative, &zero, &positive));
 
-  // |D^-1/2 r| / |D^1/2 x| of a solution, D = diag(C): a lower bound of |D^-1/2 E D^-1/2|, of which random loads reach most
-  const VectorXd  D = diagonal_of(C_.get(), rows_.owned());
-  MatrixXd        b = irregular(rows_.first(), rows_.owned()).cwiseProduct(D.cwiseSqrt()), x(b.rows(), 1);
-  const auto      f = dense_columns(ranks_.comm(), rows_.owned(), rows_.size(), b);
-  const auto      y = dense_columns(ranks_.comm(), rows_.owned(), rows_.size(), x);
+  // |D^-1/2 r| / |D^1/2 x| of a solution, D = diag(C): a lower bound of |D^-1/2 E D^-1/2|, of which random loads reach
+  // most
+  MatrixXd   b = irregular(rows_.first(), rows_.owned()).cwiseProduct(D.cwiseSqrt()), x(b.rows(), 1);
+  const auto f = dense_columns(ranks_.comm(), rows_.owned(), rows_.size(), b);
+  const auto y = dense_columns(ranks_.comm(), rows_.owned(), rows_.size(), x);
   require(MatMatSolve(factor.get(), f.get(), y.get()));
   Mat product = nullptr;
   require(MatMatMult(A.get(), y.get(), MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
@@ -400,10 +408,10 @@ private:
 class SearchOnRanks final : public ModeSearch
 {
 public:
-  LocalRows                         rows;
-  fem::SparseMatrix                 M{}, C{};
-  std::shared_ptr<InverseOnRanks>   inverse{};
-  std::unique_ptr<ModeSearch>       modes_of_rows{};
+  LocalRows                       rows;
+  fem::SparseMatrix               M{}, C{};
+  std::shared_ptr<InverseOnRanks> inverse{};
+  std::unique_ptr<ModeSearch>     modes_of_rows{};
 
   explicit SearchOnRanks(LocalRows rows) : rows(std::move(rows)) {}
   void        find(int count) override { modes_of_rows->find(count); }
@@ -417,11 +425,16 @@ std::unique_ptr<ModeSearch> DistributedFactor::search(const std::string         
                                                       const BlockLanczos::Options &options,
                                                       const LowestModes           *known_on_first) const
 {
-  auto found     = std::make_unique<SearchOnRanks>(LocalRows(rows_, {C_.get(), M_.get()}));
+  const bool       with_C = eigensolver != "block-lanczos" || has_option("-eps_type");
+  const auto       M = mass(), C = with_C ? stiffness() : PetscOwned<Mat>();
+  std::vector<Mat> matrices{M.get()};
+  if (C)
+    matrices.push_back(C.get());
+  auto found     = std::make_unique<SearchOnRanks>(LocalRows(rows_, matrices));
   found->inverse = std::make_shared<InverseOnRanks>(*this, ranks_, found->rows, rows_.size());
-  found->M       = found->rows.part_of(M_.get());
-  if (eigensolver != "block-lanczos" || has_option("-eps_type"))
-    found->C = found->rows.part_of(C_.get());
+  found->M       = found->rows.part_of(M.get());
+  if (C)
+    found->C = found->rows.part_of(C.get());
 
   int count = known_on_first ? int(known_on_first->omega.size()) : 0;
   ranks_.broadcast(count);

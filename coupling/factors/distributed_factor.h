@@ -15,7 +15,7 @@ namespace gestell::coupling
  * The part of this rank of a factor by PETSc.  Every function is collective; those with "on first" read and write
  * columns of rank 0.
  *
- * The matrix is factored by MUMPS: L L^T for solutions, and L D L^T with pivots for the inertia of C - sigma M.  Options
+ * The matrix is factored by MUMPS: L L^T for solutions, and L D L^T with pivots for the inertia of C - sigma M. Options
  * of PETSc replace the first.
  */
 class DistributedFactor
@@ -27,7 +27,7 @@ public:
   /// @returns whether C is positive definite.
   /// @throws NotEnoughMemory on all ranks.
   bool   factorise();
-  double regularity() const; ///< x^T C x / x^T diag(C) x of a motion with little stiffness
+  double regularity() const { return regularity_; } ///< x^T C x / x^T diag(C) x of a motion with little stiffness
   void   release();
 
   /// Own rows of X <- C^-1 X.
@@ -42,13 +42,17 @@ public:
 
 private:
   struct Solver;
-  PetscOwned<Mat> shifted(double sigma) const;
+  PetscOwned<Mat> stiffness() const;
+  PetscOwned<Mat> mass() const;
+  double          regularity_of(const Eigen::VectorXd &diagonal) const;
 
   fem::Ranks              ranks_;
+  FactorMatrices          on_first_;
   double                  available_;
   RowDistribution         rows_;
-  PetscOwned<Mat>         C_, M_;
+  PetscOwned<Mat>         given_C_; ///< others are distributed for each use: they would take memory beside the factor
   std::unique_ptr<Solver> solver_;
+  double                  regularity_ = 1.;
 };
 
 } // namespace gestell::coupling

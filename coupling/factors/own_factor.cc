@@ -17,8 +17,7 @@ class OwnStiffnessFactor final : public StiffnessFactor
 {
 public:
   explicit OwnStiffnessFactor(FactorMatrices matrices)
-      : matrices_(std::move(matrices)),
-        factor_(SparseCholesky::without_numbers(matrices_.stiffness(), matrices_.held))
+      : matrices_(std::move(matrices)), factor_(SparseCholesky::without_numbers(matrices_.stiffness(), matrices_.held))
   {
   }
 
@@ -37,10 +36,7 @@ public:
     factor_.solve_in_place(X);
   }
 
-  Inertia below(double omega) override
-  {
-    return factor_.inertia(matrices_.stiffness(), *matrices_.M, omega * omega);
-  }
+  Inertia below(double omega) override { return factor_.inertia(matrices_.stiffness(), *matrices_.M, omega * omega); }
 
   std::unique_ptr<ModeSearch> search(const std::string &eigensolver, const BlockLanczos::Options &options,
                                      const LowestModes &known) const override

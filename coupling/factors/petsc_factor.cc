@@ -83,7 +83,7 @@ Reply carry_out(const fem::Ranks &ranks, const Message &message, const OnFirst &
 {
   fem::petsc_session();
   auto &[factors, searches] = store();
-  const auto factor         = [&]() -> DistributedFactor & { return *factors.at(message.factor); };
+  const auto factor         = [&]() -> DistributedFactor         &{ return *factors.at(message.factor); };
   Reply      reply;
   switch (message.call)
   {
@@ -289,7 +289,7 @@ void serve_petsc_factors(int order)
     return;
   if (order != factor_order)
     ranks.abort("there is no order " + std::to_string(order) + "; all ranks must run the same version of gestell");
-  Message          message{Call::forget};
+  Message message{Call::forget};
   ranks.broadcast(message);
   try
   {

@@ -10,11 +10,11 @@ namespace gestell::coupling
 bool options_choose_solver();
 
 /**
- * "mumps", or the solver of PETSC_OPTIONS, with rows of PETSc on all ranks.  Only rank 0 calls its functions; the others
- * carry them out in serve_petsc_factors().
+ * "mumps", or the solver of PETSC_OPTIONS, with rows of PETSc on all ranks.  Only rank 0 calls its functions; the
+ * others carry them out in serve_petsc_factors().
  *
- * Matrices of all ranks are distributed by rank 0, as are right-hand sides; of the modes each rank has its own rows until
- * they are found.
+ * Matrices of all ranks are distributed by rank 0, as are right-hand sides; of the modes each rank has its own rows
+ * until they are found.
  */
 std::unique_ptr<StiffnessFactor> petsc_stiffness_factor(const fem::Ranks &ranks, FactorMatrices matrices);
 

@@ -249,8 +249,8 @@ public:
     if (type_ != MPI_DOUBLE)
       MPI_Type_free(&type_);
   }
-  RowType(const RowType &)            = delete;
-  RowType &operator=(const RowType &) = delete;
+  RowType(const RowType &)                = delete;
+  RowType     &operator=(const RowType &) = delete;
   MPI_Datatype get() const { return type_; }
 
 private:

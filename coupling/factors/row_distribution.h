@@ -25,10 +25,10 @@ public:
   /// @param held  of rank 0, ascending.
   RowDistribution(const fem::Ranks &ranks, const Eigen::SparseMatrix<double> *A, const std::vector<int> &held);
 
-  int size() const { return begin_.back(); }                 ///< rows of all
-  int first() const { return begin_[ranks_.rank()]; }        ///< row of this rank
+  int size() const { return begin_.back(); }          ///< rows of all
+  int first() const { return begin_[ranks_.rank()]; } ///< row of this rank
   int owned() const { return begin_[ranks_.rank() + 1] - first(); }
-  int coordinates() const { return n_; }                     ///< the fixed ones included
+  int coordinates() const { return n_; } ///< the fixed ones included
 
   /// A(free, free) of a matrix on rank 0.
   PetscOwned<Mat> distributed(const Eigen::SparseMatrix<double> *A) const;
@@ -64,8 +64,8 @@ public:
   /// The part of this rank, symmetric.
   fem::SparseMatrix part_of(Mat A) const;
 
-  /// Copies the values of ghosts from their ranks; adds the values at ghosts to their ranks.  The rows of X lie one after
-  /// the other, `width` numbers each.
+  /// Copies the values of ghosts from their ranks; adds the values at ghosts to their ranks.  The rows of X lie one
+  /// after the other, `width` numbers each.
   void complete(double *X, int width) const;
   void add_up(double *X, int width) const;
 

@@ -17,10 +17,10 @@ namespace gestell::coupling
 /// Matrices of a frame, compressed with both triangles stored, which must outlive their factor.
 struct FactorMatrices
 {
-  const Eigen::SparseMatrix<double> *C         = nullptr; ///< [n x n]
-  const Eigen::SparseMatrix<double> *M         = nullptr; ///< the same; none: solutions only
-  std::vector<int>                   held      = {};      ///< fixed coordinates, ascending
-  Eigen::SparseMatrix<double>       *given_C   = nullptr; ///< in place of C: emptied when it has been distributed
+  const Eigen::SparseMatrix<double> *C         = nullptr;  ///< [n x n]
+  const Eigen::SparseMatrix<double> *M         = nullptr;  ///< the same; none: solutions only
+  std::vector<int>                   held      = {};       ///< fixed coordinates, ascending
+  Eigen::SparseMatrix<double>       *given_C   = nullptr;  ///< in place of C: emptied when it has been distributed
   double                             available = INFINITY; ///< bytes of this computer
 
   const Eigen::SparseMatrix<double> &stiffness() const { return given_C ? *given_C : *C; }

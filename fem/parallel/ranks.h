@@ -40,10 +40,10 @@ public:
   /// This process alone, whatever mpirun started.
   static Ranks alone() { return Ranks(MPI_COMM_SELF); }
 
-  int             rank() const { return rank_; }
-  int             size() const { return size_; }
-  bool            first() const { return rank_ == 0; }
-  MPI_Comm        comm() const { return comm_; }
+  int      rank() const { return rank_; }
+  int      size() const { return size_; }
+  bool     first() const { return rank_ == 0; }
+  MPI_Comm comm() const { return comm_; }
 
   /// Rank 0: sends the order to all others.
   void order(int number) const;

@@ -140,7 +140,7 @@ double tell_time(const std::string &name, const Work &work)
 /// Trilinear hexahedra of steel, 10 mm wide, clamped at x = 0; lumped masses: 81 entries in a row of C.
 fem::FrameMatrices grid(int nx, int ny, int nz)
 {
-  constexpr double h = 0.01, E = 210e9, nu = 0.3, rho = 7850.;
+  constexpr double            h = 0.01, E = 210e9, nu = 0.3, rho = 7850.;
   Eigen::Matrix<double, 6, 6> D = Eigen::Matrix<double, 6, 6>::Zero();
   D.topLeftCorner<3, 3>().setConstant(nu);
   D.topLeftCorner<3, 3>().diagonal().setConstant(1. - nu);
@@ -162,7 +162,7 @@ fem::FrameMatrices grid(int nx, int ny, int nz)
       }
       for (int d = 0; d < 3; ++d)
       {
-        const int e = (d + 1) % 3;
+        const int e              = (d + 1) % 3;
         strain(d, 3 * a + d)     = gradient[d];
         strain(3 + d, 3 * a + d) = gradient[e];
         strain(3 + d, 3 * a + e) = gradient[d];
@@ -222,8 +222,9 @@ void compare_factors(const fem::FrameMatrices &frame, int n_modes)
                   search->find(n_modes);
                   const auto gap = search->gap_above(n_modes);
                   between        = 0.5 * (gap.low + gap.high);
-                  std::cout << "highest frequency [Hz] " << search->modes(n_modes).omega(n_modes - 1) / 6.283185307179586
-                            << ", modes below the gap " << gap.below << '\n';
+                  std::cout << "highest frequency [Hz] "
+                            << search->modes(n_modes).omega(n_modes - 1) / 6.283185307179586 << ", modes below the gap "
+                            << gap.below << '\n';
                 });
     factor->release();
     tell_time(name + ": number of modes", [&] { std::cout << "counted " << factor->below(between).negative << '\n'; });

@@ -144,8 +144,8 @@ public:
   EigenSolver(MPI_Comm comm, const ModeProblem &problem, std::string name) : problem_(problem), name_(std::move(name))
   {
     const QuietPetsc quiet;
-    C_ = stiffness_operator(comm, problem_);
-    M_ = mass_operator(comm, problem_);
+    C_      = stiffness_operator(comm, problem_);
+    M_      = mass_operator(comm, problem_);
     EPS eps = nullptr;
     require(EPSCreate(comm, &eps));
     eps_.reset(eps);

@@ -33,10 +33,10 @@ TEST(ReductionMethods, OfTheTableAreThoseOfScenes)
 
 TEST(ReductionMethods, TakeTheirOwnKeysAndRefuseThoseOfOthers)
 {
-  const std::map<std::string, std::string> values = {{"tolerance", "0.02"},         {"modes", "1"},
-                                                     {"frequency", "20"},           {"inside", "\"fixed-interface\""},
-                                                     {"factor", "\"mumps\""},        {"eigensolver", "\"lobpcg\""},
-                                                     {"inertia_relief", "true"},    {"damping", "\"diagonal\""}};
+  const std::map<std::string, std::string> values = {{"tolerance", "0.02"},      {"modes", "1"},
+                                                     {"frequency", "20"},        {"inside", "\"fixed-interface\""},
+                                                     {"factor", "\"mumps\""},    {"eigensolver", "\"lobpcg\""},
+                                                     {"inertia_relief", "true"}, {"damping", "\"diagonal\""}};
   for (const auto &method : Reductions::entries())
   {
     for (const std::string &key : method.keys)

@@ -99,14 +99,15 @@ void expect_dense_answers(const FixedLattice &lattice, coupling::StiffnessFactor
     EXPECT_LT(lattice.error_of(found), 1e-8);
     EXPECT_EQ(found.V(held, Eigen::all).cwiseAbs().maxCoeff(), 0.);
 
-    const auto rest = factor.search("block-lanczos", {}, {found.omega.head(4), found.V.leftCols(4), found.bound.head(4)});
+    const auto rest =
+        factor.search("block-lanczos", {}, {found.omega.head(4), found.V.leftCols(4), found.bound.head(4)});
     rest->find(9);
     EXPECT_LT(lattice.error_of(rest->modes(9)), 1e-8) << "beyond known modes";
   }
   factor.release();
   for (const int below : {0, 1, 7})
   {
-    const double  shift = below > 0 ? 0.5 * (omega(below - 1) + omega(below)) : 0.5 * omega(0);
+    const double            shift   = below > 0 ? 0.5 * (omega(below - 1) + omega(below)) : 0.5 * omega(0);
     const coupling::Inertia inertia = factor.below(shift);
     EXPECT_EQ(inertia.negative, below);
     EXPECT_LT(inertia.growth, 1e6); // of rounding: far below 1 / sqrt(eps)
@@ -170,9 +171,10 @@ INSTANTIATE_TEST_SUITE_P(OfEachKind, Factor, ::testing::Values("gestell", "cholm
 TEST(FactorOptions, OfPetscReplaceTheFactor)
 {
   const FixedLattice lattice;
-  for (const auto &values : {std::map<std::string, std::string>{{"-reduction_st_pc_factor_mat_solver_type", "cholmod"}},
-                             {{"-reduction_st_pc_type", "lu"}, {"-reduction_st_pc_factor_mat_solver_type", "superlu_dist"}},
-                             {{"-reduction_st_pc_type", "icc"}}}) // preconditions conjugate gradients
+  for (const auto &values :
+       {std::map<std::string, std::string>{{"-reduction_st_pc_factor_mat_solver_type", "cholmod"}},
+        {{"-reduction_st_pc_type", "lu"}, {"-reduction_st_pc_factor_mat_solver_type", "superlu_dist"}},
+        {{"-reduction_st_pc_type", "icc"}}}) // preconditions conjugate gradients
   {
     const Options options(values);
     expect_dense_answers(lattice, *lattice.factor(""));
