@@ -11,6 +11,9 @@
 namespace gestell::coupling
 {
 
+/// Whether PETSC_OPTIONS select a factor or an iterative solver (-reduction_st_...).
+bool options_choose_solver();
+
 /**
  * The part of this rank of a factor by PETSc.  Every function is collective; those with "on first" read and write
  * columns of rank 0.

@@ -6,9 +6,6 @@
 namespace gestell::coupling
 {
 
-/// Whether PETSC_OPTIONS select a factor or an iterative solver (-reduction_st_...).
-bool options_choose_solver();
-
 /**
  * "mumps", or the solver of PETSC_OPTIONS, with rows of PETSc on all ranks.  Only rank 0 calls its functions; the
  * others carry them out in serve_petsc_factors().

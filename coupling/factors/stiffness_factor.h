@@ -61,8 +61,4 @@ public:
                                              const LowestModes &known) const = 0;
 };
 
-/// @param name  of the table above; empty: "gestell" in one process, "mumps" on several ranks.
-/// @throws std::invalid_argument for a factor of one process on several ranks.
-std::unique_ptr<StiffnessFactor> make_factor(const std::string &name, FactorMatrices matrices);
-
 } // namespace gestell::coupling

@@ -2,7 +2,7 @@
 // CalculiX, with --factors by each factor and eigensolver in turn; likewise for a grid of hexahedra.
 #include "coupling/algebra/openblas.h"
 #include "coupling/algebra/sparse_cholesky.h"
-#include "coupling/factors/stiffness_factor.h"
+#include "coupling/factors/make_factor.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/supports.h"

@@ -1,6 +1,6 @@
 #include "coupling/reduction/estimates/raised_modes.h"
 
-#include "coupling/factors/stiffness_factor.h"
+#include "coupling/factors/make_factor.h"
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 

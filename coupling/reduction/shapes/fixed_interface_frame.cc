@@ -1,6 +1,7 @@
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
 
 #include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/factors/make_factor.h"
 #include "coupling/factors/petsc_factor.h"
 #include "coupling/integration/system/dense_solvers.h"
 #include "fem/assembly/rigid_motions.h"

@@ -2,7 +2,7 @@
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/algebra/sparse_cholesky.h"
-#include "coupling/factors/stiffness_factor.h"
+#include "coupling/factors/make_factor.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/parallel/petsc_session.h"

@@ -1,6 +1,7 @@
 // A team of ranks with a task that fails, or does not, in the way the one argument says.  Called by team_test.
 
 #include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/factors/make_factor.h"
 #include "coupling/factors/petsc_factor.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/reduction/reduce_frame.h"

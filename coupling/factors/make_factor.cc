@@ -1,6 +1,7 @@
-#include "coupling/factors/stiffness_factor.h"
+#include "coupling/factors/make_factor.h"
 
 #include "coupling/factors/cholmod_factor.h"
+#include "coupling/factors/distributed_factor.h"
 #include "coupling/factors/own_factor.h"
 #include "coupling/factors/petsc_factor.h"
 
