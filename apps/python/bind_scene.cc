@@ -94,7 +94,8 @@ void bind_scene(py::module_ &module)
       .def("state_space",
            [](const PythonScene &scene, Names from, Names to, const std::string &kind, const std::string &at)
            { return scene.state_space(response_options(std::move(from), std::move(to), kind, at)); })
-      .def("stability", [](const PythonScene &scene, double step) { return stability_values(scene.stability(step)); })
+      .def("stability",
+           [](const PythonScene &scene, double step) { return apps::stability_answer(scene.stability(step)); })
       .def("size", &size);
 }
 
