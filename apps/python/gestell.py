@@ -179,23 +179,6 @@ class Scene:
                    "--configuration": configuration, "--hold": hold, "--speed": _text(speed), "--orders": orders}
         return ModesAlong(self._core.modes({name: _texts(value) for name, value in options.items()}, _progress(progress)))
 
-    def periodic(self, method="", period="", ratio=1, harmonics=0, along="", from_="", to="", points=0, check="",
-                 progress=None, **own) -> "Periodic":
-        """Motions that repeat, with their stability; along an entry, "parameters.n" from `from_` to `to`, their branches.
-
-        method: "shooting", "harmonic-balance", ...; by default the one that suits.  period: [s] by default that of the loads.
-        ratio: periods of the excitation in one of the motion.  check: a second method, which is compared.
-        harmonics, and by name lead_in, starts, damping: options of single methods, as `gestell periodic --help` lists them.
-        """
-        if along and "" in (from_, to):
-            raise InputError(f"periodic: along {along} needs its ends, from_ and to")
-        own = {name.replace("_", "-"): value for name, value in own.items()}
-        if harmonics:
-            own["harmonics"] = harmonics
-        found = self._core.periodic(method, _text(period), ratio, own, along, _text(from_), _text(to), points, check,
-                                    _progress(progress))
-        return Periodic(found)
-
     def stability(self, step=0.) -> "Stability":
         """Modes of the scene under its integrator and under all others at `step` [s], by default that of [run]."""
         return Stability(json.loads(self._core.stability(step)))
@@ -399,6 +382,9 @@ class ModesAlong:
         rows = [[str(j + 1), moves, f"{min(column):.6g}", f"{max(column):.6g}"]
                 for j, moves in enumerate(self.moves_most) for column in [[f for f in self.frequencies_hz[:, j] if f == f] or [0.]]]
         return _html_table(f"modes along {self.coordinate}", ["line", "moves most", "lowest [Hz]", "highest [Hz]"], rows)
+
+
+Scene.periodic = _computes("periodic", Periodic)
 
 
 class Stability:

@@ -1,8 +1,11 @@
 #include "apps/session/repeating_machine.h"
 
 #include "apps/session/option_value.h"
+#include "coupling/periodic/minimising.h"
 #include "coupling/periodic/period_search.h"
+#include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/settling.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 #include "coupling/periodic/turn_increments.h"
 #include "coupling/simulation/checks/told_by_time.h"
 #include "fem/values/number_text.h"
@@ -61,7 +64,7 @@ double common_period_of(const std::vector<double> &omega, const Scene &scene)
   text << scene.file << ": the loads have no common period; their frequencies are";
   for (const double w : omega)
     text << ' ' << short_text(w / (2. * M_PI), 8) << " Hz";
-  text << ": make them commensurate (ratios of whole numbers up to 64), or look at the spectra of a run instead";
+  text << ": make them commensurate (ratios of integers up to 64), or look at the spectra of a run instead";
   throw std::invalid_argument(text.str());
 }
 
@@ -278,7 +281,7 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
     throw std::invalid_argument(scene.file + ": the force of " + joined(names) + " depends on the time" +
                                 (problem.period > 0.
                                      ? " and does not repeat after " + short_text(problem.period, 8) + " s"
-                                     : ", and no period can be told from it") +
+                                     : ", which gives no period") +
                                 ": give --period \"... s\", or a load with harmonics whose frequencies tell it");
   if (!(problem.period > 0.))
     oscillate_freely(scene, machine, repeating);
@@ -289,6 +292,39 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
   problem.period *= request.ratio;
   problem.turn *= request.ratio;
   return repeating;
+}
+
+ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string &name)
+{
+  const coupling::PeriodicProblem &problem = repeating.problem;
+  if (!name.empty())
+  {
+    const coupling::PeriodicMethod &method = coupling::periodic_method(name);
+    if (const std::string why = method.refuses(problem); !why.empty())
+      throw std::invalid_argument("--method " + name + ": " + why);
+    return {&method, "asked for"};
+  }
+  const std::string why = coupling::shooting_method().refuses(problem);
+  if (!why.empty())
+    return {&coupling::settling_method(), why};
+  constexpr int few_coordinates = 3; // up to which all solutions are searched by default
+  if (problem.turn.size() <= few_coordinates && !problem.period_is_unknown())
+    return {&coupling::minimising_method(), "few coordinates: all solutions are looked for"};
+  return {&coupling::shooting_method(), "it takes few periods, and tells the stability"};
+}
+
+coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
+                                           const coupling::Machine &machine)
+{
+  coupling::PeriodicOptions options;
+  options.own = request.own;
+  if (request.tolerance > 0.)
+    options.tolerance = request.tolerance;
+  options.integration = periodic_integration(scene, machine);
+  // Other methods leave larger residuals than exact propagation.
+  if (!(request.tolerance > 0.) && options.integration.method != coupling::PeriodicOptions().integration.method)
+    options.tolerance = std::max(1e-8, 10. * options.integration.tolerance);
+  return options;
 }
 
 } // namespace gestell::apps
