@@ -203,6 +203,14 @@ void oscillate_freely(const Scene &scene, coupling::Machine &machine, RepeatingM
       (own.pushed ? " (it rested at the start, and was pushed)" : "");
 }
 
+bool is_driven(const Scene &scene, const coupling::Machine &machine)
+{
+  const auto &elements = machine.model().elements();
+  return !scene.loads.empty() ||
+         std::any_of(elements.begin(), elements.end(),
+                     [](const auto &placement) { return placement.element->work() == mechanism::Work::input; });
+}
+
 /// Computes the angle that each rotating coordinate covers in the period, or the period of a revolution.
 /// @return why a coordinate that moves initially does not rotate; empty: all do
 std::string turn(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
@@ -230,7 +238,9 @@ std::string turn(const Scene &scene, coupling::Machine &machine, const coupling:
     problem.phase       = found.phase;
     problem.phase_value = start.q[found.phase];
     repeating.reason    = "the machine comes round with " + machine.coordinate_name(found.phase) +
-                       "; the speed is that at which motor and resistance balance";
+                       (is_driven(scene, machine)
+                            ? "; the speed is that at which motor and resistance balance"
+                            : "; nothing drives it, so that its speed is free: give it by --period, or add a motor");
   }
   return problem.turn.isZero(0.) ? held_angles(invariance, turning.speed, machine) : "";
 }

@@ -30,6 +30,12 @@ TEST(PeriodicScene, RefusesOptionsThatItsMethodDoesNotTake)
   EXPECT_EQ(words("shooting", [](auto &r) { r.check = "harmonic-balance", r.own["harmonics"] = 9; }), "");
 }
 
+TEST(PeriodicScene, OfAMachineThatNothingDrivesHasAFreeSpeed)
+{
+  const std::string wheel = rotor_body("wheel", "0.6 kg m^2", "[0, 1, 0]") + "[start]\nv = { wheel = 15 }\n";
+  EXPECT_THAT(periodic_of(wheel).reason, testing::HasSubstr("its speed is free: give it by --period"));
+}
+
 /// On a motion that a series gives, extremes lie between the samples: of a cosine its amplitude.
 TEST(PeriodicScene, ExtremesOfASeriesAreItsOwn)
 {
