@@ -58,6 +58,8 @@ int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const Commo
   const ResultsLock           held(folder);
   const auto                  inputs = inputs_of(options, analysis.reads());
   require_room(folder, analysis.writes(), inputs);
+  if (saves)
+    say_run_is_replaced(folder, entry.files.empty() ? "" : entry.files.front().name);
   AnalysisOutcome outcome = AnalysisOutcome::done;
   const Result    result  = computed(entry, analysis, session, outcome);
   progress.done();
