@@ -53,6 +53,9 @@ struct AnalysisEntry
   std::function<std::unique_ptr<Analysis>()>     begin;
   std::function<std::shared_ptr<const Answer>()> nothing; ///< an answer without values: the reference lists its members
   std::string                                    of{};    ///< command whose result it adds to; empty: none
+  /// Phase from which it computes motions: an interruption keeps them, and they replace a run in the folder.  Empty: it
+  /// computes none; an interruption ends its command.
+  std::string motions{};
 
   bool is_command() const { return !does.empty(); }
 };

@@ -58,7 +58,14 @@ template <class Own, class Value>
 AnalysisEntry analysis_entry(const std::string &name, const std::string &does, const std::vector<std::string> &examples,
                              const std::vector<ResultFile> &files, const std::string &of = "")
 {
-  return {name, does, examples, files, [] { return std::make_unique<Own>(); }, [] { return as_answer(Value()); }, of};
+  return {name,
+          does,
+          examples,
+          files,
+          [] { return std::make_unique<Own>(); },
+          [] { return as_answer(Value()); },
+          of,
+          of == "run" ? "integration" : ""};
 }
 
 } // namespace gestell::apps

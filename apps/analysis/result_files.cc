@@ -3,7 +3,6 @@
 #include "apps/analysis/analyses.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/tables/mode_tables.h"
-#include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/size_table.h"
 #include "apps/output/values/result.h"
@@ -27,26 +26,11 @@ std::string csv_of(const Result &result)
   return table(result);
 }
 
-std::vector<std::pair<std::string, std::string>> orbits(const Result &result)
-{
-  return result.periodic ? orbit_files(*result.periodic) : std::vector<std::pair<std::string, std::string>>();
-}
-
 /// Files that do not belong to an analysis.
 const std::vector<ResultFile> own_files = {
     {"history.csv", "to plot: every signal over time", csv_of<&Result::run, history_csv>},
     {"modes.csv", "natural frequencies, damping, effective masses", csv_of<modes_csv>},
     {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", csv_of<mode_energies_csv>},
-    {"solutions.csv", "periodic motions with their stability and signals, of `periodic`",
-     csv_of<&Result::periodic, solutions_csv>},
-    {"multipliers.csv", "their Floquet multipliers", csv_of<&Result::periodic, multipliers_csv>},
-    {"special_points.csv", "where they begin, end or change, with `periodic --along`",
-     csv_of<&Result::periodic, special_points_csv>},
-    {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits},
-    {"section.csv", "a motion at the begin of every period, where `periodic` follows it for long",
-     csv_of<&Result::periodic, section_csv>},
-    {"basins.csv", "which start settles to which motion, with `periodic --basins`",
-     csv_of<&Result::periodic, basins_csv>},
     {"size.csv", "models that `size` tried, with their cost and errors", csv_of<&Result::size, size_csv>},
     {"sized.toml", "the one that it chose, as a scene", nullptr, "", "", nullptr, WrittenBy::its_command},
     {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`", nullptr, "", "", nullptr,

@@ -1,6 +1,6 @@
 #include "apps/cli/command_answers.h"
 
-#include "apps/output/describe/described_json.h"
+#include "apps/output/text/json.h"
 #include "coupling/frame/cache_folder.h"
 #include "coupling/modes/modes.h"
 #include "fem/values/two_pi.h"
@@ -216,11 +216,6 @@ std::string mesh_answer(const coupling::MeshReport &report)
                     {"statements", report.statements},
                     {"solids", solids},
                     {"surfaces", surfaces}});
-}
-
-std::string stability_answer(const StabilityStudy &study)
-{
-  return json_text(described_json(study));
 }
 
 std::string study_answer(const StudyAnswer &answer, const StudyFindings *findings)

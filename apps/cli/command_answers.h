@@ -1,6 +1,5 @@
 #pragma once
 
-#include "apps/output/report/stability_report.h"
 #include "apps/session/session.h"
 #include "apps/study/report/study_findings.h"
 #include "apps/study/runs/study_answer.h"
@@ -31,7 +30,6 @@ std::string explanation_answer(const CacheExplanation &explanation);
 std::string frame_answer(const FrameAnswer &answer);
 std::string partition_answer(const Partition &partition);
 std::string mesh_answer(const coupling::MeshReport &report);
-std::string stability_answer(const StabilityStudy &study);
 /// @param findings  null: runs are missing, or all failed
 std::string study_answer(const StudyAnswer &answer, const StudyFindings *findings);
 

@@ -19,12 +19,12 @@ namespace gestell::apps
 namespace
 {
 
-/// A run in the folder is kept: only the addition of the analysis is written.
+/// A run in the folder is kept, unless the analysis computes motions: only its addition is written.
 /// @return a message about it
 std::string write_answer_of(const AnalysisEntry &entry, const Result &result, const std::filesystem::path &folder,
                             const std::vector<std::filesystem::path> &inputs)
 {
-  if (!OwnFolder(folder).owns("history.csv"))
+  if (!entry.motions.empty() || !OwnFolder(folder).owns("history.csv"))
   {
     prepare_folder(folder, inputs);
     write_results(folder, result);
@@ -49,13 +49,17 @@ int exit_code_of(AnalysisOutcome outcome)
 int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const CommonOptions &options)
 {
   ProgressLine progress(options.quiet);
+  const bool   saves = !entry.motions.empty();
   Session      session(options.input, options.overrides, options.scripts,
-                       {progress.callback(), entry.of == "run" ? &interruption() : nullptr});
+                       {saves ? nothing_to_save_before(entry.motions, progress.callback()) : progress.callback(),
+                   saves ? &interruption() : nullptr});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
   const ResultsLock           held(folder);
   const auto                  inputs = inputs_of(options, analysis.reads());
   require_room(folder, analysis.writes(), inputs);
+  if (saves)
+    say_run_is_replaced(folder, entry.files.empty() ? "" : entry.files.front().name);
   AnalysisOutcome outcome = AnalysisOutcome::done;
   const Result    result  = computed(entry, analysis, session, outcome);
   progress.done();
@@ -65,12 +69,14 @@ int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const Commo
   if (answers_in_json())
     answer_with(summary_json(result));
   std::cout << answers_text(result);
+  const std::string failure = outcome == AnalysisOutcome::failed ? failure_of(result) : "";
   for (const std::string &warning : all_warnings(result))
-    std::cerr << "gestell: warning: " << warning << '\n';
+    if (warning != failure)
+      std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << (more.empty() ? "" : more + '\n') << where << '\n';
   if (outcome == AnalysisOutcome::failed)
   {
-    const std::string message = "the computation failed: " + failure_of(result);
+    const std::string message = "the computation failed: " + failure;
     std::cerr << "gestell: " << message << '\n';
     error_in_json(message);
   }
@@ -92,15 +98,14 @@ Command analysis_command(const AnalysisEntry &entry)
 } // namespace
 
 Command run_command(), modes_command(), reduce_command(), check_command(), chart_command(), mesh_command(),
-    stability_command(), periodic_command(), export_command(), size_command(), study_command(), show_command(),
-    new_command(), verify_command(), help_command();
+    stability_command(), export_command(), size_command(), study_command(), show_command(), new_command(),
+    verify_command(), help_command();
 
 std::vector<Command> commands()
 {
-  std::vector<Command> all = {run_command(),    modes_command(),  reduce_command(),    check_command(),
-                              chart_command(),  mesh_command(),   stability_command(), periodic_command(),
-                              export_command(), size_command(),   study_command(),     show_command(),
-                              new_command(),    verify_command(), help_command()};
+  std::vector<Command> all = {run_command(),  modes_command(),     reduce_command(), check_command(), chart_command(),
+                              mesh_command(), stability_command(), export_command(), size_command(),  study_command(),
+                              show_command(), new_command(),       verify_command(), help_command()};
   for (const AnalysisEntry &entry : analyses())
     if (entry.is_command())
       all.push_back(analysis_command(entry));

@@ -3,6 +3,7 @@
 #include "apps/analysis/result_folder.h"
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/folder_lock.h"
 #include "apps/scene/values/requests.h"
 #include "apps/session/checkpoint/input_files.h"
@@ -35,6 +36,14 @@ public:
 private:
   FolderLock lock_;
 };
+
+/// Says before a computation that its results will replace a run in the folder.
+/// @param own  file that results of the command have
+inline void say_run_is_replaced(const std::filesystem::path &folder, const std::string &own)
+{
+  if (const OwnFolder there(folder); there.owns("history.csv") && !there.owns(own))
+    std::cout << "the run in " << folder.string() << " will be replaced; -o DIR keeps it" << std::endl;
+}
 
 /// Input files of the command, which no result may replace: those of its scene, and others of its options.
 inline std::vector<std::filesystem::path> inputs_of(const CommonOptions            &options,

@@ -65,6 +65,7 @@ int size_scene(const CommonOptions &options, const SizeCommand &requested)
   const std::filesystem::path folder  = results_path(options, scene);
   const ResultsLock           held(folder);
   require_room(folder, {sized_name, all_name}, inputs_of(options));
+  say_run_is_replaced(folder, sized_name);
   SizedModel model = found(scene, outputs, requested);
 
   prepare_folder(folder);
@@ -96,7 +97,7 @@ int size_scene(const CommonOptions &options, const SizeCommand &requested)
     answer_with(summary_json(result));
   std::cout << size_text(model.result) << "scene: " << file.string()
             << "\nreport: " << (folder / "report.html").string() << '\n';
-  for (const std::string &warning : result.warnings)
+  for (const std::string &warning : all_warnings(result))
     std::cerr << "gestell: warning: " << warning << '\n';
   if (result.run->interrupted)
     return exit_interrupted;

@@ -2,7 +2,6 @@
 #include "apps/atlas/atlas.h"
 #include "apps/atlas/scene_stability.h"
 #include "apps/cli/command.h"
-#include "apps/cli/command_answers.h"
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"

@@ -1,5 +1,7 @@
 #include "apps/python/answer_values.h"
 
+#include "apps/output/describe/described_json.h"
+
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
@@ -50,31 +52,6 @@ py::dict motion_values(const apps::PeriodicEntry &entry, const Eigen::VectorXd &
                   "v"_a = named(s.v), "method"_a = s.method, "notes"_a = s.notes, "branch"_a = entry.branch,
                   "parameter"_a = entry.parameter, "signals"_a = signals, "columns"_a = names,
                   "orbit"_a = table(entry.rows, entry.signals.size() + 1));
-}
-
-py::object number_or_none(const std::optional<double> &value)
-{
-  return value ? py::object(py::float_(*value)) : py::object(py::none());
-}
-
-py::dict errors_of(const std::vector<apps::BudgetEntry> &entries)
-{
-  py::dict all;
-  for (const apps::BudgetEntry &entry : entries)
-    all[py::str(entry.output)] =
-        py::dict("value"_a = entry.value, "unit"_a = entry.unit, "mesh"_a = number_or_none(entry.mesh.error),
-                 "reduction"_a = number_or_none(entry.reduction.error), "time"_a = number_or_none(entry.time.error),
-                 "total"_a = number_or_none(entry.total));
-  return all;
-}
-
-py::dict rung_values(const apps::SizeRung &rung)
-{
-  return py::dict("mesh_size"_a = rung.mesh_size, "sides"_a = rung.cells, "coordinates"_a = rung.coordinates,
-                  "interface"_a = rung.interface, "modes"_a = rung.modes, "reduction"_a = rung.reduction,
-                  "method"_a = rung.method, "step"_a = rung.step, "tolerance"_a = rung.tolerance,
-                  "cpu_s"_a = rung.cpu_s, "share"_a = rung.share, "worst"_a = rung.worst,
-                  "errors"_a = errors_of(rung.entries));
 }
 
 } // namespace
@@ -144,39 +121,11 @@ py::dict along_values(const apps::AlongResult &along)
                   "speed"_a = along.speed, "meetings"_a = meetings);
 }
 
-py::dict size_values(const apps::SizeResult &found)
+std::string size_values(const apps::SizeResult &found)
 {
-  py::list ladder, all, proof;
-  for (const apps::SizeRung &rung : found.ladder)
-    ladder.append(rung_values(rung));
-  for (const apps::SizeRung &rung : found.all)
-    all.append(rung_values(rung));
-  for (const apps::SizeProof &output : found.proof)
-    proof.append(py::dict("output"_a = output.output, "unit"_a = output.unit, "value"_a = output.value,
-                          "finer"_a = output.finer));
-  return py::dict("met"_a = found.met, "tolerance"_a = found.tolerance, "ladder"_a = ladder, "chosen"_a = found.chosen,
-                  "stopped"_a = found.stopped, "proof"_a = proof, "finer"_a = found.finer,
-                  "left_out"_a = found.left_out, "missing"_a = found.missing, "unasked"_a = found.unasked,
-                  "cpu_s"_a = found.cpu_s, "runs"_a = found.runs(), "all"_a = all);
-}
-
-py::dict stability_values(const apps::StabilityStudy &study)
-{
-  const auto      n = Eigen::Index(study.modes.size());
-  Eigen::MatrixXd modes(n, 6);
-  for (Eigen::Index i = 0; i < n; ++i)
-  {
-    const coupling::ModeAccuracy &mode = study.modes[std::size_t(i)];
-    modes.row(i) << mode.mode.omega / (2. * M_PI), mode.mode.zeta, mode.omega_h, mode.spectral_radius,
-        mode.numerical_damping, mode.period_error;
-  }
-  py::list methods;
-  for (const apps::MethodVerdict &verdict : study.verdicts)
-    methods.append(py::dict("method"_a = verdict.method, "growing"_a = verdict.growing, "growth"_a = verdict.growth,
-                            "worst_hz"_a = verdict.worst_hz, "step_that_works"_a = verdict.step_that_works,
-                            "lowest_period_error"_a  = verdict.lowest_period_error,
-                            "highest_period_error"_a = verdict.highest_period_error));
-  return py::dict("method"_a = study.method, "modes"_a = modes, "methods"_a = methods, "notes"_a = study.notes);
+  using apps::described_json;
+  return apps::json_text(
+      {{"size", described_json(found)}, {"ladder", described_json(found.ladder)}, {"all", described_json(found.all)}});
 }
 
 } // namespace gestell::python

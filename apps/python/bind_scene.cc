@@ -22,24 +22,6 @@ std::shared_ptr<PythonResult> run(const PythonScene &scene, std::optional<Names>
   return scene.run({std::move(signals), history, lean, {{"--sensitivities", {sensitivities}}}, std::move(progress)});
 }
 
-std::shared_ptr<PythonResult> periodic(const PythonScene &scene, const std::string &method, const std::string &period,
-                                       int ratio, std::map<std::string, double> own, const std::string &along,
-                                       const std::string &from, const std::string &to, int points,
-                                       const std::string &check, py::object progress)
-{
-  apps::PeriodicRequest request;
-  request.method = method;
-  request.period = period;
-  request.ratio  = ratio;
-  request.own    = std::move(own);
-  request.along  = along;
-  request.from   = from;
-  request.to     = to;
-  request.points = points;
-  request.check  = check;
-  return scene.periodic(request, std::move(progress));
-}
-
 apps::FrfOptions response_options(Names from, Names to, const std::string &kind, const std::string &at)
 {
   apps::FrfOptions options;
@@ -87,14 +69,14 @@ void bind_scene(py::module_ &module)
       .def("words", &PythonScene::words)
       .def("run", &run)
       .def("modes", &PythonScene::modes)
-      .def("periodic", &periodic)
       .def("frame", &PythonScene::frame)
       .def("full_frame", &PythonScene::full_frame)
       .def("analyse", &PythonScene::analyse)
       .def("state_space",
            [](const PythonScene &scene, Names from, Names to, const std::string &kind, const std::string &at)
            { return scene.state_space(response_options(std::move(from), std::move(to), kind, at)); })
-      .def("stability", [](const PythonScene &scene, double step) { return stability_values(scene.stability(step)); })
+      .def("stability",
+           [](const PythonScene &scene, double step) { return apps::stability_answer(scene.stability(step)); })
       .def("size", &size);
 }
 

@@ -179,26 +179,9 @@ class Scene:
                    "--configuration": configuration, "--hold": hold, "--speed": _text(speed), "--orders": orders}
         return ModesAlong(self._core.modes({name: _texts(value) for name, value in options.items()}, _progress(progress)))
 
-    def periodic(self, method="", period="", ratio=1, harmonics=0, along="", from_="", to="", points=0, check="",
-                 progress=None, **own) -> "Periodic":
-        """Motions that repeat, with their stability; along an entry, "parameters.n" from `from_` to `to`, their branches.
-
-        method: "shooting", "harmonic-balance", ...; by default the one that suits.  period: [s] by default that of the loads.
-        ratio: periods of the excitation in one of the motion.  check: a second method, which is compared.
-        harmonics, and by name lead_in, starts, damping: options of single methods, as `gestell periodic --help` lists them.
-        """
-        if along and "" in (from_, to):
-            raise InputError(f"periodic: along {along} needs its ends, from_ and to")
-        own = {name.replace("_", "-"): value for name, value in own.items()}
-        if harmonics:
-            own["harmonics"] = harmonics
-        found = self._core.periodic(method, _text(period), ratio, own, along, _text(from_), _text(to), points, check,
-                                    _progress(progress))
-        return Periodic(found)
-
     def stability(self, step=0.) -> "Stability":
         """Modes of the scene under its integrator and under all others at `step` [s], by default that of [run]."""
-        return Stability(self._core.stability(step))
+        return Stability(json.loads(self._core.stability(step)))
 
     def size(self, tolerance: float, outputs="", max_cpu=0., exhaustive=False) -> "Size":
         """The smallest mesh, number of modes and integration that keep outputs, "F_P.max,F_P.min", within a relative tolerance.
@@ -207,7 +190,7 @@ class Scene:
         """
         names = outputs if isinstance(outputs, str) else ",".join(outputs)
         found, sized = self._core.size(tolerance, names, max_cpu, exhaustive)
-        return Size(found, Scene._of(sized))
+        return Size(json.loads(found), Scene._of(sized))
 
     def frame(self) -> Frame:
         """The reduced frame: M, B, C, T and the names of their rows."""
@@ -401,14 +384,23 @@ class ModesAlong:
         return _html_table(f"modes along {self.coordinate}", ["line", "moves most", "lowest [Hz]", "highest [Hz]"], rows)
 
 
+Scene.periodic = _computes("periodic", Periodic)
+
+
 class Stability:
     """The modes of a scene under its integrator, and what the other methods make of them at the same step."""
 
     def __init__(self, values: dict):
+        import numpy
         self.method, self.notes = values["method"], values["notes"]
-        (self.frequencies_hz, self.damping_ratios, self.omega_h, self.spectral_radii, self.numerical_damping,
-         self.period_errors) = values["modes"].T  #: by mode: Hz, 1, rad, growth per step, ratio, relative
-        self.methods = values["methods"]  #: [{method, growing, growth, worst_hz, step_that_works [s], ...}]
+        by_mode = lambda name: numpy.array([mode[name] for mode in values["modes"]], dtype=float)
+        self.frequencies_hz, self.damping_ratios, self.omega_h = by_mode("frequency_hz"), by_mode("damping_ratio"), by_mode("omega_h")  #: Hz, 1, rad
+        self.spectral_radii, self.numerical_damping = by_mode("spectral_radius"), by_mode("numerical_damping")  #: growth per step, ratio
+        self.period_errors = by_mode("period_error")  #: relative
+        names = {"growing_modes": "growing", "growth_per_step": "growth", "step_that_works_s": "step_that_works"}
+        none = {"worst_hz": 0., "step_that_works_s": 0.}  # where no mode grows
+        self.methods = [{names.get(name, name): none.get(name, float("nan")) if value is None else value for name, value in each.items()}
+                        for each in values["methods"]]  #: [{method, growing, growth, worst_hz, step_that_works [s], ...}]
 
     def __repr__(self) -> str:
         return f"<gestell.Stability of {self.method}: {sum(self.spectral_radii > 1 + 1e-10)} of {len(self.omega_h)} modes grow>"
@@ -423,15 +415,17 @@ class Size:
     """The smallest model that keeps outputs within a tolerance: `scene` has its mesh, modes and integration."""
 
     def __init__(self, values: dict, scene: Scene):
-        self.scene = scene
-        self.met, self.tolerance, self.stopped = values["met"], values["tolerance"], values["stopped"]  #: within the tolerance?
-        self.ladder = values["ladder"]  #: models as tried: mesh_size [m], modes, step [s], cpu_s, errors {output: {value, mesh, ...}}
-        self.chosen = self.ladder[values["chosen"]]  #: of the ladder
+        self.scene, size = scene, values["size"]
+        self.met, self.tolerance, self.stopped = size["met"], size["tolerance"], size["stopped"] or ""  #: within the tolerance?
+        self.ladder = [_rung(each) for each in values["ladder"]]  #: models as tried: mesh_size [m], modes, step [s], cpu_s, errors {output: {value, mesh, ...}}
+        self.all = [_rung(each) for each in values["all"]]
+        self.chosen = self.ladder[size["chosen"]["rung"] - 1]  #: of the ladder
         self.errors = self.chosen["errors"]  #: {output: {value, unit, mesh, reduction, time, total}}, absolute
-        self.proof, self.finer = values["proof"], values["finer"]  #: outputs beside those of a finer model
-        self.left_out, self.missing, self.all = values["left_out"], values["missing"], values["all"]
-        self.unasked = values["unasked"]  #: questions that would have taken the search above ten runs of the chosen model
-        self.cpu_s, self.runs = values["cpu_s"], values["runs"]  #: what the search took, in all and in runs of the chosen model
+        self.proof = [{"output": name, "unit": self.errors[name]["unit"], **each} for name, each in size["proof"].items()]
+        self.finer = size["finer"]  #: the model of the proof
+        self.left_out, self.missing = size["left_out"], size["missing"]
+        self.unasked = size["unasked"]  #: questions that would have taken the search above ten runs of the chosen model
+        self.cpu_s, self.runs = size["cost"]["cpu_s"], size["cost"]["runs"]  #: what the search took, in all and in runs of the chosen model
 
     def __repr__(self) -> str:
         return f"<gestell.Size to {self.tolerance:g}: {'met' if self.met else 'not met'} after {len(self.ladder)} models>"
@@ -441,6 +435,14 @@ class Size:
         rows = [[name, f"{e['value']:.6g} {e['unit']}"] + [text(e[part]) for part in ("mesh", "reduction", "time", "total")]
                 for name, e in self.errors.items()]
         return _html_table(repr(self)[1:-1], ["output", "value", "mesh", "reduction", "time", "total"], rows)
+
+
+def _rung(values: dict) -> dict:
+    """A model of Size; what is not chosen is 0, -1 or empty."""
+    none = {"mesh_size": 0., "sides": "", "modes": -1, "reduction": "", "share": float("inf")}
+    rung = {name: none.get(name) if value is None else value for name, value in values.items()}
+    rung["errors"] = rung.pop("outputs")
+    return rung
 
 
 def _entries(values: dict) -> dict:

@@ -214,7 +214,7 @@ void bind_result(py::module_ &module)
       .def_property_readonly("_periodic",
                              [](const PythonResult &result) -> py::object
                              {
-                               const auto &motions = result.result().periodic;
+                               const auto *motions = apps::answer_in<apps::PeriodicResult>(result.result().answers);
                                return motions ? py::object(periodic_values(*motions)) : py::none();
                              })
       .def_property_readonly("_along",

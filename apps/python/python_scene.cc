@@ -312,24 +312,6 @@ std::shared_ptr<PythonResult> PythonScene::modes(const apps::OptionTexts &option
       std::move(progress));
 }
 
-std::shared_ptr<PythonResult> PythonScene::periodic(const apps::PeriodicRequest &request, py::object progress) const
-{
-  const auto result = interruptibly(
-      [&, self = *this](const apps::Watch &watch)
-      {
-        auto session = self.session(self.scene(), watch);
-        auto motions = session->periodic(request);
-        return std::make_shared<PythonResult>(std::move(session), std::move(motions));
-      },
-      std::move(progress));
-  const auto &found = *result->result().periodic;
-  if (found.interrupted)
-    raise_with(py::reinterpret_borrow<py::object>(PyExc_KeyboardInterrupt)(), result);
-  if (!found.failure.empty())
-    raise_with(py::module_::import("_gestell").attr("ComputationFailed")(found.failure), result);
-  return result;
-}
-
 std::shared_ptr<PythonResult> PythonScene::analyse(const std::string &name, const apps::OptionTexts &options,
                                                    py::object progress) const
 {
@@ -345,6 +327,8 @@ std::shared_ptr<PythonResult> PythonScene::analyse(const std::string &name, cons
         return std::make_shared<PythonResult>(std::move(session), std::move(answer));
       },
       std::move(progress));
+  if (outcome == apps::AnalysisOutcome::interrupted)
+    raise_with(py::reinterpret_borrow<py::object>(PyExc_KeyboardInterrupt)(), result);
   if (outcome == apps::AnalysisOutcome::failed)
     raise_with(py::module_::import("_gestell").attr("ComputationFailed")(apps::failure_of(result->result())), result);
   return result;

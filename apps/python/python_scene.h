@@ -68,7 +68,6 @@ public:
   /// @throws pybind11::error_already_set ComputationFailed, KeyboardInterrupt: with the results so far in `result`
   std::shared_ptr<PythonResult>    run(const RunChoice &choice) const;
   std::shared_ptr<PythonResult>    modes(const apps::OptionTexts &options, pybind11::object progress) const;
-  std::shared_ptr<PythonResult>    periodic(const apps::PeriodicRequest &request, pybind11::object progress) const;
   std::shared_ptr<PythonFrame>     frame() const; ///< reduced
   std::shared_ptr<PythonFullFrame> full_frame() const;
   apps::StabilityStudy             stability(double step) const;

@@ -46,6 +46,13 @@ struct PreparedMachine
 
   /// A state of the unreduced frame in the companion's coordinates: interfaces and bodies; modal coordinates are zero.
   Eigen::VectorXd project(const Eigen::VectorXd &state) const;
+  /// Pictures of an unreduced frame show the companion.
+  void project_pictures(coupling::RunResult &run) const
+  {
+    for (auto *states : {&run.picture_states, &run.picture_velocities})
+      for (Eigen::VectorXd &state : *states)
+        state = companion ? project(state) : state;
+  }
 };
 
 /// Makes the frame of the scene (or reads the reduced one from the cache) and builds the machine on it.

@@ -1,8 +1,11 @@
 #include "apps/session/repeating_machine.h"
 
 #include "apps/session/option_value.h"
+#include "coupling/periodic/minimising.h"
 #include "coupling/periodic/period_search.h"
+#include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/settling.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 #include "coupling/periodic/turn_increments.h"
 #include "coupling/simulation/checks/told_by_time.h"
 #include "fem/values/number_text.h"
@@ -61,7 +64,7 @@ double common_period_of(const std::vector<double> &omega, const Scene &scene)
   text << scene.file << ": the loads have no common period; their frequencies are";
   for (const double w : omega)
     text << ' ' << short_text(w / (2. * M_PI), 8) << " Hz";
-  text << ": make them commensurate (ratios of whole numbers up to 64), or look at the spectra of a run instead";
+  text << ": make them commensurate (ratios of integers up to 64), or look at the spectra of a run instead";
   throw std::invalid_argument(text.str());
 }
 
@@ -200,6 +203,14 @@ void oscillate_freely(const Scene &scene, coupling::Machine &machine, RepeatingM
       (own.pushed ? " (it rested at the start, and was pushed)" : "");
 }
 
+bool is_driven(const Scene &scene, const coupling::Machine &machine)
+{
+  const auto &elements = machine.model().elements();
+  return !scene.loads.empty() ||
+         std::any_of(elements.begin(), elements.end(),
+                     [](const auto &placement) { return placement.element->work() == mechanism::Work::input; });
+}
+
 /// Computes the angle that each rotating coordinate covers in the period, or the period of a revolution.
 /// @return why a coordinate that moves initially does not rotate; empty: all do
 std::string turn(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
@@ -227,7 +238,9 @@ std::string turn(const Scene &scene, coupling::Machine &machine, const coupling:
     problem.phase       = found.phase;
     problem.phase_value = start.q[found.phase];
     repeating.reason    = "the machine comes round with " + machine.coordinate_name(found.phase) +
-                       "; the speed is that at which motor and resistance balance";
+                       (is_driven(scene, machine)
+                            ? "; the speed is that at which motor and resistance balance"
+                            : "; nothing drives it, so that its speed is free: give it by --period, or add a motor");
   }
   return problem.turn.isZero(0.) ? held_angles(invariance, turning.speed, machine) : "";
 }
@@ -278,7 +291,7 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
     throw std::invalid_argument(scene.file + ": the force of " + joined(names) + " depends on the time" +
                                 (problem.period > 0.
                                      ? " and does not repeat after " + short_text(problem.period, 8) + " s"
-                                     : ", and no period can be told from it") +
+                                     : ", which gives no period") +
                                 ": give --period \"... s\", or a load with harmonics whose frequencies tell it");
   if (!(problem.period > 0.))
     oscillate_freely(scene, machine, repeating);
@@ -289,6 +302,39 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
   problem.period *= request.ratio;
   problem.turn *= request.ratio;
   return repeating;
+}
+
+ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string &name)
+{
+  const coupling::PeriodicProblem &problem = repeating.problem;
+  if (!name.empty())
+  {
+    const coupling::PeriodicMethod &method = coupling::periodic_method(name);
+    if (const std::string why = method.refuses(problem); !why.empty())
+      throw std::invalid_argument("--method " + name + ": " + why);
+    return {&method, "asked for"};
+  }
+  const std::string why = coupling::shooting_method().refuses(problem);
+  if (!why.empty())
+    return {&coupling::settling_method(), why};
+  constexpr int few_coordinates = 3; // up to which all solutions are searched by default
+  if (problem.turn.size() <= few_coordinates && !problem.period_is_unknown())
+    return {&coupling::minimising_method(), "few coordinates: all solutions are looked for"};
+  return {&coupling::shooting_method(), "it takes few periods, and tells the stability"};
+}
+
+coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
+                                           const coupling::Machine &machine)
+{
+  coupling::PeriodicOptions options;
+  options.own = request.own;
+  if (request.tolerance > 0.)
+    options.tolerance = request.tolerance;
+  options.integration = periodic_integration(scene, machine);
+  // Other methods leave larger residuals than exact propagation.
+  if (!(request.tolerance > 0.) && options.integration.method != coupling::PeriodicOptions().integration.method)
+    options.tolerance = std::max(1e-8, 10. * options.integration.tolerance);
+  return options;
 }
 
 } // namespace gestell::apps

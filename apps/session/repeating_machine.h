@@ -42,4 +42,20 @@ coupling::MethodOptions periodic_integration(const Scene &scene, const coupling:
 /// @throws std::invalid_argument with the frequencies if they have none
 double load_period(const Scene &scene, const coupling::Machine &machine);
 
+/// A method for periodic solutions, and the reason for its choice.
+struct ChosenMethod
+{
+  const coupling::PeriodicMethod *method = nullptr;
+  std::string                     reason;
+};
+
+/// The method of this name; without a name the first one that can treat the machine (for small machines one that finds
+/// all solutions).
+/// @throws std::invalid_argument if it cannot treat the machine, with a method that can
+ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string &name);
+
+/// Options of the methods; a machine that exact propagation cannot treat is integrated as in [run].
+coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
+                                           const coupling::Machine &machine);
+
 } // namespace gestell::apps

@@ -4,20 +4,14 @@
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/build/result_window.h"
-#include "apps/session/backbone.h"
-#include "apps/session/basin_answer.h"
 #include "apps/session/joint_opening.h"
-#include "apps/session/long_run.h"
 #include "apps/session/main_peak.h"
-#include "apps/session/periodic_answer.h"
-#include "apps/session/periodic_branches.h"
-#include "apps/session/phase_planes.h"
+#include "apps/session/repeating_machine.h"
 #include "apps/session/run_magnitudes.h"
 #include "apps/session/story/dense_pictures.h"
 #include "apps/session/story/swing_shares.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/periodic/period_flow.h"
-#include "coupling/periodic/settling.h"
 
 #include <algorithm>
 
@@ -25,16 +19,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-/// Pictures show the companion of an unreduced frame.
-void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &run)
-{
-  if (!prepared.companion)
-    return;
-  for (auto *states : {&run.picture_states, &run.picture_velocities})
-    for (Eigen::VectorXd &state : *states)
-      state = prepared.project(state);
-}
 
 /// Moves the state onto the periodic motion to which it leads.
 void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomic<bool> *stop,
@@ -73,53 +57,6 @@ coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared
   catch (const coupling::ConvergenceFailure &none)
   {
     failure = none.what();
-    return {};
-  }
-}
-
-constexpr int orbit_rows = 512; ///< of a period: extremes to (pi / 512)^2 / 2 = 2e-5
-
-/// The solutions by a second method, compared with the first of them.
-void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeating,
-                    const coupling::PeriodicOptions &options, const std::string &name,
-                    const std::vector<coupling::Signal> &signals, PeriodicResult &found)
-{
-  const ChosenMethod second = chosen_method(repeating, name);
-  for (const PeriodicEntry &entry : found.entries)
-    try
-    {
-      const coupling::PeriodicGuess near{entry.solution.q, entry.solution.v, entry.solution.period};
-      coupling::PeriodicProblem     problem = repeating.problem;
-      if (!problem.period_is_unknown()) // it may repeat after several periods only
-      {
-        problem.period = entry.solution.period;
-        problem.ratio  = entry.solution.ratio;
-        problem.turn   = entry.solution.turn;
-      }
-      const auto solutions = second.method->solve(problem, near, without_lead_in(options));
-      found.checks.push_back(compared(entry, entry_of(machine, problem, solutions.front(), signals, orbit_rows), name));
-    }
-    catch (const std::exception &none) // among them what the method refuses of this motion
-    {
-      found.checks.push_back({name, {}, none.what()});
-    }
-}
-
-/// Solutions of the method; none if it fails, with the reason in `found`.
-std::vector<coupling::PeriodicSolution> searched(const ChosenMethod &chosen, const coupling::PeriodicProblem &problem,
-                                                 const coupling::PeriodicGuess   &guess,
-                                                 const coupling::PeriodicOptions &options, PeriodicResult &found)
-{
-  try
-  {
-    auto solutions = chosen.method->solve(problem, guess, options);
-    for (auto &solution : solutions)
-      solution = of_own_period(*chosen.method, problem, solution, options);
-    return solutions;
-  }
-  catch (const std::runtime_error &none)
-  {
-    found.failure = none.what();
     return {};
   }
 }
@@ -189,6 +126,14 @@ PreparedMachine &Session::machine()
     keep_stable_step(*machine_, scene_.run);
   }
   return *machine_;
+}
+
+void Session::vary(const std::string &change)
+{
+  variant_ = variant_.with(change);
+  scene_   = variant_.scene();
+  machine_.reset();
+  checked_ = false;
 }
 
 void Session::use_frame(const coupling::ReducedFrame &frame)
@@ -264,95 +209,12 @@ Result Session::run(const RunParts &parts)
   result.peak = taken_peak(signals, *result.run);
   if (result.peak)
     add_dense_pictures(*result.run, *result.peak);
-  states_for_pictures(prepared, *result.run);
+  prepared.project_pictures(*result.run);
   if (result.peak && prepared.companion)
     result.peak->q = prepared.project(result.peak->q);
   if (scene_.stress.given && !result.run->rows.empty())
     result.stress = stress_answer(scene_, *prepared.machine.model().reduced_frame(), *result.run, result.warnings);
   return finished(std::move(result));
-}
-
-Result Session::periodic(const PeriodicRequest &request)
-{
-  if (request.along.empty())
-    return periodic_here(request);
-  if (scene_.reduction.superposition)
-    throw std::invalid_argument(
-        "--along: a branch follows coordinates, and the modes of method = \"modal\" change with " + request.along +
-        "; take reduction.method = \"craig-bampton\"");
-  require_parameter(variant_, request.along);
-  // Branches start at the first value of the parameter.
-  begin_ = std::make_unique<Session>(variant_.with(request.along + '=' + request.from), watch_);
-  return begin_->periodic_here(request);
-}
-
-Result Session::periodic_here(const PeriodicRequest &request)
-{
-  return answered("periodic", [&](Result &result) { result.periodic = periodic_motions(request, result); });
-}
-
-PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result &result)
-{
-  coupling::Machine &machine = machine_->machine;
-  const auto         signals = scene_signals(scene_, machine);
-  progress()("start", -1.);
-  const coupling::InitialState start     = prepare_start(scene_, *machine_);
-  const RepeatingMachine       repeating = repeating_machine(scene_, machine, start, request, watch_.interruption);
-  check_long_run(request);
-  check_basins(machine, repeating.problem, request);
-  const ChosenMethod chosen = chosen_method(repeating, request.method);
-  check_options(request, *chosen.method);
-  if (!request.check.empty())
-    chosen_method(repeating, request.check);
-  const auto     options = periodic_options(scene_, request, machine);
-  PeriodicResult found;
-  found.method = chosen.method->name();
-  found.reason = chosen.reason + "; " + repeating.reason;
-  for (int i = 0; i < machine.size(); ++i)
-    found.coordinates.push_back({machine.coordinate_name(i), coordinate_sign(machine, i)});
-  std::optional<SceneFamily> family;
-  if (!request.along.empty())
-    family.emplace(variant_, *machine_, request, repeating.problem);
-  progress()("periodic motions", -1.);
-  const coupling::PeriodicGuess &guess     = repeating.guess;
-  auto                           solutions = searched(chosen, repeating.problem, guess, options, found);
-  follow_long_run(machine, repeating.problem, guess, options, request, signals, solutions, found);
-  for (const auto &solution : solutions)
-    found.work.add(solution.work);
-  if (family)
-  {
-    found.parameter      = request.along;
-    found.parameter_unit = family->unit();
-    const auto now       = progress();
-    follow_branches(
-        *family, solutions, options, request, [&](double share) { now("branches", share); }, repeating.problem.stop,
-        found);
-    found.backbone = backbone_of(machine, repeating.problem, found.entries, signals);
-  }
-  else
-  {
-    for (const auto &solution : solutions)
-    {
-      const bool shown = !result.run && solution.stable();
-      found.entries.push_back(
-          entry_of(machine, repeating.problem, solution, signals, orbit_rows, shown ? &result.run : nullptr));
-    }
-    found.planes   = phase_planes(machine, repeating.problem, found.entries, signals);
-    const auto now = progress();
-    find_basins(
-        machine, repeating.problem, guess, solutions, options, request, [&](double share) { now("basins", share); },
-        found);
-  }
-  if (!request.check.empty())
-    check_periodic(machine, repeating, options, request.check, signals, found);
-  found.interrupted = repeating.problem.interrupted();
-  const auto stable = std::find_if(found.entries.begin(), found.entries.end(),
-                                   [](const PeriodicEntry &entry) { return entry.solution.stable(); });
-  if (stable != found.entries.end() && request.along.empty() && !result.run)
-    result.run = orbit_run(machine, stable->solution, signals, orbit_rows);
-  if (result.run)
-    states_for_pictures(*machine_, *result.run);
-  return found;
 }
 
 coupling::RunResult Session::simulated(const coupling::InitialState        &initial,

@@ -3,7 +3,6 @@
 #include "apps/scene/variant.h"
 #include "apps/session/checkpoint/run_checkpoints.h"
 #include "apps/session/partition.h"
-#include "apps/session/periodic_request.h"
 #include "apps/session/phase_times.h"
 #include "apps/session/prepared_machine.h"
 #include "apps/session/run_part.h"
@@ -61,6 +60,8 @@ public:
 
   /// The machine of the scene, built at the first call: the frame is read from the cache, or reduced and stored there.
   PreparedMachine &machine();
+  /// Continues with another value of a key, "parameters.n=3".
+  void vary(const std::string &change);
   /// Replaces the machine by one on this frame, for example of a finer mesh.
   void use_frame(const coupling::ReducedFrame &frame);
 
@@ -83,9 +84,6 @@ public:
   /// @param parts  additional answers of the run
   Result run(const RunParts &parts = {});
 
-  /// Periodic solutions of the scene's machine, with their stability; `run` is a period of the first stable one.
-  Result periodic(const PeriodicRequest &request = {});
-
   /// Wall time [s] of all computations so far, by phase.
   const std::vector<std::pair<std::string, double>> &wall_seconds() const { return times_.seconds(); }
 
@@ -95,8 +93,6 @@ public:
 private:
   coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals,
                                 coupling::Trajectory *trajectory, std::vector<std::string> &warnings);
-  Result              periodic_here(const PeriodicRequest &request);
-  PeriodicResult      periodic_motions(const PeriodicRequest &request, Result &result);
   Result              finished(Result result);
 
   Variant                          variant_;
@@ -106,7 +102,6 @@ private:
   std::shared_ptr<PreparedMachine> machine_; ///< shared with results, which compute its forces when they are written
   bool                             checked_ = false, swings_ = false;
   std::optional<CheckpointRequest> checkpoints_;
-  std::unique_ptr<Session>         begin_; ///< start of a branch: results draw its machine
 };
 
 } // namespace gestell::apps

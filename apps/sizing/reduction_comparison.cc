@@ -115,9 +115,12 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
       {
         if (options.stop && *options.stop)
           return comparison;
-        point.method  = entry.name;
-        point.modes   = number;
-        point.failure = failure.what();
+        point.method     = entry.name;
+        point.modes      = number;
+        point.failure    = failure.what();
+        const auto &last = comparison.points.empty() ? comparison.reference : comparison.points.back();
+        if (last.method == point.method && last.failure == point.failure)
+          break; // whatever the number of modes
       }
       comparison.points.push_back(point);
       if (options.on_point)

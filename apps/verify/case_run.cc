@@ -9,7 +9,6 @@
 #include "coupling/integration/stability/overshoot.h"
 #include "coupling/integration/stability/stability.h"
 #include "coupling/integration/system/convergence_failure.h"
-#include "coupling/periodic/periodic_methods.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -143,13 +142,13 @@ class CaseRequest
 public:
   explicit CaseRequest(const ReferenceCase &one) : case_(one) {}
 
-  std::string text(const std::string &key, const std::string &otherwise = "")
+  std::string text(const std::string &key)
   {
     names_.push_back(key);
     for (const auto &[name, value] : case_.requested)
       if (name == key)
         return value;
-    return otherwise;
+    return "";
   }
   std::vector<std::string> texts(const std::string &key) ///< parted by commas
   {
@@ -158,11 +157,6 @@ public:
     for (std::string one; std::getline(all, one, ',');)
       texts.push_back(one);
     return texts;
-  }
-  int number(const std::string &key, int otherwise)
-  {
-    double value = 0.;
-    return is_number(text(key), value) ? static_cast<int>(value) : otherwise;
   }
   void finish() const
   {
@@ -209,27 +203,6 @@ Result analysed(const AnalysisEntry &entry, Session &session, CaseRequest &reque
   return result;
 }
 
-Result periodic(Session &session, CaseRequest &requested)
-{
-  PeriodicRequest request;
-  request.method = requested.text("method");
-  request.period = requested.text("period");
-  request.ratio  = requested.number("ratio", request.ratio);
-  for (const coupling::PeriodicOption &option : coupling::options_of_periodic_methods())
-  {
-    std::string key = option.name;
-    std::replace(key.begin(), key.end(), '-', '_');
-    if (double value = 0.; is_number(requested.text(key), value))
-      request.own[option.name] = value;
-  }
-  request.along  = requested.text("along");
-  request.from   = requested.text("from");
-  request.to     = requested.text("to");
-  request.points = requested.number("points", request.points);
-  requested.finish();
-  return session.periodic(request);
-}
-
 Result run(Session &session, CaseRequest &requested)
 {
   requested.finish();
@@ -249,7 +222,7 @@ struct Computation
 
 const std::vector<Computation> &scene_computations()
 {
-  static const std::vector<Computation> all = {{"run", run}, {"modes", modes}, {"periodic", periodic}};
+  static const std::vector<Computation> all = {{"run", run}, {"modes", modes}};
   return all;
 }
 

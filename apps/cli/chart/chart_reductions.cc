@@ -5,12 +5,12 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/charts/chart.h"
 #include "apps/output/folder/writing.h"
+#include "apps/output/text/csv.h"
 #include "apps/session/session.h"
 #include "apps/sizing/error_budget.h"
 #include "apps/sizing/reduction_comparison.h"
 #include "fem/values/number_text.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -23,36 +23,30 @@ namespace
 
 void print_point(const ReductionPoint &point)
 {
-  std::cout << "  " << std::left << std::setw(16) << point.method << std::right << std::setw(7) << point.modes
-            << std::setw(13) << point.coordinates << std::setw(17) << short_text(point.prepare_cpu, 3) << std::setw(13)
-            << short_text(point.run_cpu, 3) << "  ";
+  std::cout << "  " << std::left << std::setw(16) << point.method << std::right << std::setw(7) << point.modes;
   if (!point.failure.empty())
-    std::cout << point.failure;
-  else if (point.worst.empty())
-    std::cout << "reference";
+    std::cout << "  " << point.failure;
   else
-    std::cout << short_text(point.error, 3) << ", " << point.worst;
+    std::cout << std::setw(13) << point.coordinates << std::setw(17) << short_text(point.prepare_cpu, 3)
+              << std::setw(13) << short_text(point.run_cpu, 3) << "  "
+              << (point.worst.empty() ? "reference" : short_text(point.error, 3) + ", " + point.worst);
   std::cout << std::endl;
 }
 
-std::string csv_of(const ReductionComparison &comparison)
+CsvTable csv_of(const ReductionComparison &comparison)
 {
-  std::string csv = "method,modes,coordinates,prepare cpu [s],run cpu [s],error,worst,failure";
+  std::vector<std::string> heads{"method",      "modes", "coordinates", "prepare cpu [s]",
+                                 "run cpu [s]", "error", "worst",       "failure"};
   for (const OutputName &output : comparison.outputs)
-    csv += ',' + output.text;
-  csv += '\n';
+    heads.push_back(output.text);
+  CsvTable   csv(heads);
   const auto add = [&](const ReductionPoint &point)
   {
-    csv += point.method + ',' + std::to_string(point.modes) + ',' + std::to_string(point.coordinates);
-    for (const double x : {point.prepare_cpu, point.run_cpu, point.error})
-      append_exact(csv += ',', x);
-    std::string failure = point.failure;
-    std::replace(failure.begin(), failure.end(), '"', '\'');
-    csv += ',' + point.worst + ",\"" + failure + '"';
-    for (std::size_t i = 0; i < comparison.outputs.size(); ++i)
-      if (csv += ','; i < point.values.size())
-        append_exact(csv, point.values[i]);
-    csv += '\n';
+    const auto known = [&](auto x) { return point.failure.empty() ? std::optional(x) : std::nullopt; };
+    std::vector<std::optional<double>> values(point.values.begin(), point.values.end());
+    values.resize(comparison.outputs.size());
+    csv.add(point.method, point.modes, known(point.coordinates), known(point.prepare_cpu), known(point.run_cpu),
+            known(point.error), point.worst, point.failure, values);
   };
   add(comparison.reference);
   for (const ReductionPoint &point : comparison.points)

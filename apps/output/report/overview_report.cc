@@ -119,11 +119,7 @@ std::string computed_subject(const Result &result)
 std::string other_sentences(const Result &result)
 {
   std::string text;
-  if (result.periodic)
-    text += count_text(result.periodic->entries.size(), "periodic motion") + " of " + result.scene +
-            (result.periodic->entries.size() == 1 ? " was" : " were") + " computed by " + result.periodic->method +
-            model_text(result.model) + ". ";
-  else if (const std::string subject = computed_subject(result); !subject.empty())
+  if (const std::string subject = computed_subject(result); !subject.empty())
     text += subject + " of " + result.scene + " were computed" + model_text(result.model) + ". ";
   else if (!result.coupled_modes.empty() || !result.frame_modes.empty())
     text += "The natural frequencies of " + result.scene + " were computed" + model_text(result.model) + ". ";
@@ -160,7 +156,7 @@ std::vector<KeyNumber> key_numbers(const Result &result)
 
 std::string overview(const Result &result)
 {
-  const std::string text = result.run && !result.periodic
+  const std::string text = result.run && computed_subject(result).empty()
                                ? what_was_run(result, *result.run) + " " + what_it_gave(*result.run)
                                : other_sentences(result);
   std::string       html = text.empty() ? "" : "<p id=\"computed\">" + escape_xml(text) + "</p>\n";

@@ -9,7 +9,6 @@
 #include "apps/output/report/frame_text.h"
 #include "apps/output/report/machine_report.h"
 #include "apps/output/report/overview_report.h"
-#include "apps/output/report/periodic_report.h"
 #include "apps/output/report/section.h"
 #include "apps/output/report/story_report.h"
 #include "apps/output/report/stress_report.h"
@@ -362,7 +361,6 @@ Report make_report(const Result &result)
     report.charts.emplace_back(chart.name, chart.svg);
 
   Body body(result, report.charts);
-  body.add(periodic_section(result, report.charts), "periodic", "Periodic motions");
   body.add(Section::Place::first);
   body.add(answer_section(result, has_view), "peaks", "Answer");
   body.add(section("view", "The machine to turn", view), "view", "Machine");

@@ -40,6 +40,14 @@ struct PartHtml
   }
 };
 
+/// A picture that leaves room for another one beside it.
+bool is_narrow(const Section::Part &part)
+{
+  constexpr double half_a_page = 528.; // of 66 rem
+  const auto      *drawing     = std::get_if<Section::Drawing>(&part);
+  return drawing && drawing->shown == Section::Drawing::Shown::picture && drawing->chart.width <= half_a_page;
+}
+
 struct PartText
 {
   std::string operator()(const Section::Sentences &part) const { return part.page ? "" : part.text + '\n'; }
@@ -64,8 +72,16 @@ std::string section_text(const Section &of)
 std::string section_html(const Section &of, Pictures &pictures)
 {
   std::string html;
-  for (const Section::Part &part : of.parts)
-    html += std::visit(PartHtml{pictures}, part);
+  for (auto part = of.parts.begin(); part != of.parts.end();)
+  {
+    const auto end = std::find_if_not(part, of.parts.end(), is_narrow);
+    const bool row = end - part > 1;
+    html += row ? "<div class=\"row\">" : "";
+    do
+      html += std::visit(PartHtml{pictures}, *part++);
+    while (part < end);
+    html += row ? "</div>\n" : "";
+  }
   return section(of.id, escape_xml(of.title), html);
 }
 

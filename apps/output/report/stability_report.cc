@@ -1,5 +1,6 @@
 #include "apps/output/report/stability_report.h"
 
+#include "apps/output/describe/described_json.h"
 #include "apps/output/describe/described_table.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
@@ -84,6 +85,11 @@ std::string stability_text(const StabilityStudy &study)
   for (const std::string &note : study.notes)
     text += note + "\n";
   return text;
+}
+
+std::string stability_answer(const StabilityStudy &study)
+{
+  return json_text(described_json(study));
 }
 
 std::string stability_page(const StabilityStudy &study)

@@ -69,6 +69,9 @@ void describe(Visitor &v, const StabilityStudy &x)
   v("notes", x.notes, "", "texts");
 }
 
+/// The study as JSON text, for `--json` and Python.
+std::string stability_answer(const StabilityStudy &study);
+
 /// One self-contained page: the scene's modes, other methods at its step, stability maps, unstable intervals.
 std::string stability_page(const StabilityStudy &study);
 

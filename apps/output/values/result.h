@@ -1,7 +1,6 @@
 #pragma once
 
 #include "apps/output/values/answer.h"
-#include "apps/output/values/periodic_result.h"
 #include "apps/output/values/run_story.h"
 #include "apps/output/values/scenery.h"
 #include "apps/output/values/size_result.h"
@@ -85,7 +84,6 @@ struct Result
   std::vector<coupling::Pole>                 poles;            ///< including drives and lags, at the initial speeds
   std::optional<RunStory>                     story;            ///< of a run with events
   std::optional<StressResult>                 stress;           ///< of a run with requested stresses
-  std::optional<PeriodicResult>               periodic;         ///< of `periodic`; `run` is its first solution
   std::optional<SizeResult>                   size;             ///< of `size`; `run` is that of the chosen model
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was determined for each, for people

@@ -2,7 +2,6 @@
 
 #include "apps/output/describe/described.h"
 #include "apps/output/values/coupling_descriptions.h"
-#include "apps/output/values/periodic_description.h"
 #include "apps/output/values/result.h"
 
 #include <algorithm>
@@ -160,7 +159,6 @@ void describe(Visitor &v, const Result &x)
   v.maybe(x.energy_shares.has_value(), "mode_energies",
           mode_energies(x.energy_shares.value_or(coupling::EnergyShares())), "",
           "shares of the energies of each coupled mode");
-  part("periodic", x.periodic, "`periodic`");
   for (const auto &answer : x.answers)
     answer->describe(v);
   part("size", x.size, "`size`");

@@ -89,23 +89,31 @@ void describe(Visitor &v, const OutputErrors &x)
 }
 
 template <class Visitor>
-void describe(Visitor &v, const ChosenRung &x)
+void describe(Visitor &v, const SizeRung &x)
 {
   std::vector<std::pair<std::string, OutputErrors>> outputs;
-  for (const BudgetEntry &entry : x.rung.entries)
+  for (const BudgetEntry &entry : x.entries)
     outputs.push_back({entry.output, {entry}});
-  v("rung", x.number, "", "number of the model");
-  v("mesh_size", x.rung.mesh_size > 0. ? std::optional(x.rung.mesh_size) : std::nullopt, "m", "null: not chosen");
-  v("sides", unless_empty(x.rung.cells), "", "kind of cells; null: not chosen");
-  v("coordinates", x.rung.coordinates, "", "of the unreduced frame");
-  v("interface", x.rung.interface, "", "coordinates q1 of the frame");
-  v("modes", x.rung.modes >= 0 ? std::optional(x.rung.modes) : std::nullopt, "", "null: not chosen");
-  v("reduction", x.rung.reduction.empty() ? std::nullopt : std::optional(x.rung.reduction), "", "null: none");
-  v("method", x.rung.method, "", "of integration");
-  v("step", x.rung.step, "s", "of the integration");
-  v("tolerance", x.rung.tolerance, "1", "of the step's control; 0: the step is fixed");
-  v("cpu_s", x.rung.cpu_s, "s", "from CAD to the end of the run");
+  v("mesh_size", x.mesh_size > 0. ? std::optional(x.mesh_size) : std::nullopt, "m", "null: not chosen");
+  v("sides", unless_empty(x.cells), "", "kind of cells; null: not chosen");
+  v("coordinates", x.coordinates, "", "of the unreduced frame");
+  v("interface", x.interface, "", "coordinates q1 of the frame");
+  v("modes", x.modes >= 0 ? std::optional(x.modes) : std::nullopt, "", "null: not chosen");
+  v("reduction", x.reduction.empty() ? std::nullopt : std::optional(x.reduction), "", "null: none");
+  v("method", x.method, "", "of integration");
+  v("step", x.step, "s", "of the integration");
+  v("tolerance", x.tolerance, "1", "of the step's control; 0: the step is fixed");
+  v("cpu_s", x.cpu_s, "s", "from CAD to the end of the run");
+  v("share", x.share, "1", "largest error of an output over the allowed one; null: one is not known");
+  v("worst", x.worst, "", "largest contribution to it");
   v("outputs", outputs, "", "errors of each output");
+}
+
+template <class Visitor>
+void describe(Visitor &v, const ChosenRung &x)
+{
+  v("rung", x.number, "", "number of the model");
+  describe(v, x.rung);
 }
 
 template <class Visitor>
@@ -130,9 +138,8 @@ void describe(Visitor &v, const SizeResult &x)
   v("missing", x.missing, "", "what it may lack");
   v("unasked", x.unasked, "", "questions that would have cost too much");
   v("cost",
-    std::vector<std::pair<std::string, double>>{{"cpu_s", x.cpu_s},
-                                                {"runs", x.ladder.empty() ? 0. : x.runs()},
-                                                {"forecast_cpu_s", x.forecast.cpu_s}},
+    std::vector<std::pair<std::string, double>>{
+        {"cpu_s", x.cpu_s}, {"runs", x.ladder.empty() ? 0. : x.runs()}, {"forecast_cpu_s", x.forecast.cpu_s}},
     "", "of the search: CPU time [s], in runs of the chosen model, and as forecast [s]");
 }
 

@@ -74,6 +74,14 @@ TEST(ResumedProgram, KilledAtRandomLeavesTheSameFiles)
   EXPECT_FALSE(std::filesystem::exists(folder.results() / "checkpoint.bin"));
 }
 
+TEST(PeriodicCommand, SaysThatItReplacesARun)
+{
+  const Folder      folder("replaced_run");
+  const std::string said = " will be replaced", press = scene("press_minimal.toml") + folder.option();
+  ASSERT_EQ(gestell("run --set run.end=0.01 " + press).exit_code, 0);
+  EXPECT_TRUE(gestell("periodic " + press).says(said) && !gestell("periodic " + press).says(said));
+}
+
 TEST(ResumedProgram, RefusesAnotherScene)
 {
   const Folder folder("other");

@@ -104,6 +104,10 @@ TEST(Section, HasItsSentencesAndTablesOnThePageAndInATerminal)
                                   "  part <a>  range\n"
                                   "  rod <1>    12.5\n"
                                   "  a note over all columns\n");
+  Chart narrow;
+  narrow.width = 372.;
+  const Section::Drawing picture{"narrow", narrow, ChartLink::none, Section::Drawing::Shown::picture};
+  EXPECT_THAT(section_html({"pair", "", "", {}, false, {picture, picture}}, pictures), HasSubstr("class=\"row\""));
   section.page = true;
   Result of_page;
   of_page.answers.push_back(std::make_shared<Shown>(section));

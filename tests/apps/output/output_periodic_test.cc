@@ -1,9 +1,7 @@
+#include "apps/analysis/periodic/periodic_charts.h"
+#include "apps/analysis/periodic/periodic_description.h"
+#include "apps/analysis/periodic/periodic_tables.h"
 #include "apps/output/describe/described_json.h"
-#include "apps/output/report/periodic_charts.h"
-#include "apps/output/tables/periodic_tables.h"
-#include "apps/output/tables/summary_json.h"
-#include "apps/output/text/json.h"
-#include "apps/output/values/periodic_description.h"
 #include "tests/support/test.h"
 
 namespace gestell::apps
@@ -54,9 +52,7 @@ TEST(AmplitudeChart, ShowsUnstableMotionsDashedAndTheBackboneDotted)
   EXPECT_EQ(amplitude_chart(result, 0).panels[0].curves.size(), 2u);
   result.backbone                    = {result.entries[0]};
   result.backbone[0].solution.period = 4.;
-  Result all;
-  all.periodic    = result;
-  const Json json = Json::parse(summary_json(all))["periodic"]["backbone"][0];
+  const Json json                    = described_json(result)["backbone"][0];
   EXPECT_EQ(json["frequency_hz"], 0.25);
   EXPECT_EQ(json["amplitudes"]["F"], 1.);
   const Chart chart = amplitude_chart(result, 0);

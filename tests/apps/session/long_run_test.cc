@@ -31,8 +31,7 @@ std::string hertz(double Omega)
 
 PeriodicRequest request_by(const std::string &method)
 {
-  PeriodicRequest request;
-  request.method = method;
+  PeriodicRequest request{method};
   if (method == "minimise")
     request.own["starts"] = 4;
   return request;
@@ -116,8 +115,7 @@ TEST(LongRun, IsToldWhereItIsAskedFor)
 TEST(LongRun, ChecksASubharmonicMotionByItsOwnPeriod)
 {
   const std::string start = test::quoted("[start]\nv = { slide = 4 }\n");
-  PeriodicRequest   request;
-  request.method         = "shooting";
+  PeriodicRequest   request{"shooting"};
   request.ratio          = 3;
   request.own["lead-in"] = 30;
   request.check          = "harmonic-balance";

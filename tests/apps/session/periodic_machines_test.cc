@@ -47,8 +47,7 @@ const std::string crank = slider_body("slide", "8 kg", "[0, 0, 1]") + element("r
 
 PeriodicResult by(const std::string &method, const std::string &text)
 {
-  PeriodicRequest request;
-  request.method = method;
+  PeriodicRequest request{method};
   return periodic_of(text, request);
 }
 
@@ -254,8 +253,7 @@ TEST(LinearMotions, AreFoundOrRefusedByEveryMethod)
     {
       SCOPED_TRACE(std::string(kind.name) + ", " + method);
       const test::SceneFolder folder;
-      PeriodicRequest         request;
-      request.method = method;
+      PeriodicRequest         request{method};
       request.period = "0.2 s";
       if (method == "minimise")
         request.own["starts"] = 2;
@@ -271,7 +269,7 @@ TEST(LinearMotions, AreFoundOrRefusedByEveryMethod)
       };
       try
       {
-        answered(*apps::Session(scene).periodic(request).periodic);
+        answered(periodic_of(Session(scene), request));
       }
       catch (const std::invalid_argument &refusal)
       {
@@ -289,8 +287,7 @@ constexpr double Omega = 7.3;
 /// The plate under a load so small that it stays linear: angles of 1e-4 change multipliers by their squares.
 PeriodicResult vibrations(const std::string &method, double P)
 {
-  PeriodicRequest request;
-  request.method = method;
+  PeriodicRequest request{method};
   if (method == "shooting" || method == "collocation") // a flutter leaves the motion before
     request.own["lead-in"] = 0;
   return periodic_of(follower_plate(P, 2e-3) + cosine_load("plate", 0.05, Omega) +

@@ -12,8 +12,7 @@ TEST(PeriodicScene, RefusesOptionsThatItsMethodDoesNotTake)
 {
   const auto words = [](const std::string &method, const std::function<void(PeriodicRequest &)> &ask)
   {
-    PeriodicRequest request;
-    request.method = method;
+    PeriodicRequest request{method};
     ask(request);
     return refusal([&] { periodic_of(duffing(0.05, 0.5, 0.3, 1.), request); });
   };
@@ -31,11 +30,16 @@ TEST(PeriodicScene, RefusesOptionsThatItsMethodDoesNotTake)
   EXPECT_EQ(words("shooting", [](auto &r) { r.check = "harmonic-balance", r.own["harmonics"] = 9; }), "");
 }
 
+TEST(PeriodicScene, OfAMachineThatNothingDrivesHasAFreeSpeed)
+{
+  const std::string wheel = rotor_body("wheel", "0.6 kg m^2", "[0, 1, 0]") + "[start]\nv = { wheel = 15 }\n";
+  EXPECT_THAT(periodic_of(wheel).reason, testing::HasSubstr("its speed is free: give it by --period"));
+}
+
 /// On a motion that a series gives, extremes lie between the samples: of a cosine its amplitude.
 TEST(PeriodicScene, ExtremesOfASeriesAreItsOwn)
 {
-  PeriodicRequest request;
-  request.method              = "harmonic-balance";
+  PeriodicRequest request{"harmonic-balance"};
   request.own["harmonics"]    = 1;
   const PeriodicResult result = periodic_of(duffing(0.05, 0., 1., 1.37), request);
   ASSERT_EQ(result.entries.size(), 1u);
@@ -56,8 +60,7 @@ TEST(PeriodicScene, AveragingSeesDryFriction)
                                                            regularised = {{"force", number(R)}, {"speed", "0.0001"}};
     std::vector<std::pair<std::string, std::string>> keys              = law == "friction" ? regularised : dry;
     keys.insert(keys.begin(), {"from", "slide"});
-    PeriodicRequest request;
-    request.method = "averaging";
+    PeriodicRequest      request{"averaging"};
     const PeriodicResult result =
         periodic_of(slider_body("slide", "1", "[1, 0, 0]") +
                         element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "1"}}) +
@@ -80,9 +83,7 @@ TEST(PeriodicScene, WhatSticksHasItsForceFromTheFirstInstant)
       element("sb", "spring-damper", {{"from", "b"}, {"to", "a"}, {"stiffness", "100"}, {"damping", "1"}}) +
       element("rub", "dry friction", {{"from", "b"}, {"kinetic_force", "4"}, {"static_force", "5"}}) +
       cosine_load("a", 8., 3. * M_PI) + test::quoted("[output.signals]\nF = 'rub.force'\nS = 'sb.force'\n");
-  PeriodicRequest request;
-  request.method              = "settling";
-  const PeriodicResult result = periodic_of(text, request);
+  const PeriodicResult result = periodic_of(text, {"settling"});
   ASSERT_FALSE(result.entries.empty()) << result.failure;
   const auto &rows = result.entries[0].rows;
   for (std::size_t i = 0; i < rows.size(); i += 3)
@@ -92,12 +93,9 @@ TEST(PeriodicScene, WhatSticksHasItsForceFromTheFirstInstant)
 /// A sheet that is broken has no force where it had one before: no mesh of collocation sees that.
 TEST(PeriodicScene, CollocationRefusesAnElementThatRemembers)
 {
-  PeriodicRequest request;
-  request.method         = "collocation";
+  PeriodicRequest request{"collocation"};
   request.own["lead-in"] = 0;
-  expect_refusal(
-      [&] { Session(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml", {}).periodic(request); },
-      "sheet has hysteresis");
+  expect_refusal([&] { periodic_of(Session(press_minimal), request); }, "sheet has hysteresis");
 }
 
 } // namespace gestell::tests

@@ -2,7 +2,7 @@
 
 // Scenes whose periodic motions are looked for.
 
-#include "apps/session/session.h"
+#include "apps/analysis/periodic/periodic_motions.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
 
@@ -18,12 +18,21 @@ using apps::PeriodicRequest;
 using apps::PeriodicResult;
 using apps::Session;
 
+inline const std::string press_minimal = std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml";
+
+inline PeriodicResult periodic_of(Session &&session, const PeriodicRequest &request = {})
+{
+  apps::Result run;
+  begin_branches(session, request);
+  return periodic_motions(session, request, run);
+}
+
 inline PeriodicResult periodic_of(const std::string &text, const PeriodicRequest &request = {},
                                   const std::vector<std::string> &overrides = {})
 {
   const test::SceneFolder folder;
   const std::string       path = folder.write("scene.toml", text);
-  return *Session(path, overrides).periodic(request).periodic;
+  return periodic_of(Session(path, overrides), request);
 }
 
 /// A load F cos(Omega t) on a marker along x.

@@ -84,8 +84,7 @@ TEST(PeriodicScene, MotionsWithPlayAndTheirSubharmonicsMeetTheReference)
 {
   const double zeta[] = {0.05, 0.05, 0.05, 0.1}, F0[] = {0.3, 0.3, 0.1, 0.3}, F[] = {1., 0.5, 2., 1.},
                Omega[] = {0.7, 1.8, 1.8, 1.8};
-  PeriodicRequest request;
-  request.method        = "minimise";
+  PeriodicRequest request{"minimise"};
   request.own["starts"] = 40;
   for (int i = 0; i < 4; ++i)
   {
@@ -109,8 +108,7 @@ TEST(PeriodicScene, MotionsWithPlayAndTheirSubharmonicsMeetTheReference)
 /// Folds of the one-harmonic equations are those of the closed formula, six digits in the table.
 TEST(PeriodicScene, BranchesTurnWhereTheReferenceSays)
 {
-  PeriodicRequest request;
-  request.method              = "harmonic-balance";
+  PeriodicRequest request{"harmonic-balance"};
   request.own["harmonics"]    = 1;
   request.along               = "parameters.Omega";
   request.from                = "1.0";
@@ -138,11 +136,8 @@ TEST(PeriodicScene, BranchesTurnWhereTheReferenceSays)
 /// A press with motor, play and a sheet for every stroke: the period that shooting finds is that to which it settles.
 TEST(PeriodicScene, ThePressComesRoundInThePeriodToWhichItSettles)
 {
-  const std::string press = std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml";
-  PeriodicRequest   request;
-  const auto        shot = *Session(press).periodic(request).periodic;
-  request.method         = "settling";
-  const auto settled     = *Session(press).periodic(request).periodic;
+  const auto shot    = periodic_of(Session(press_minimal));
+  const auto settled = periodic_of(Session(press_minimal), {"settling"});
   ASSERT_EQ(shot.entries.size(), 1u) << shot.failure;
   ASSERT_EQ(settled.entries.size(), 1u) << settled.failure;
   EXPECT_NEAR(shot.entries[0].solution.period, settled.entries[0].solution.period,
@@ -152,11 +147,10 @@ TEST(PeriodicScene, ThePressComesRoundInThePeriodToWhichItSettles)
 
 TEST(PeriodicScene, ARunThatStartsOnTheOrbitRepeatsAtOnce)
 {
-  const std::string  press = std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml";
-  const double       T     = Session(press).periodic().periodic->entries.at(0).solution.period;
+  const double       T = periodic_of(Session(press_minimal)).entries.at(0).solution.period;
   const apps::Result run =
-      Session(press, {"start.rule=periodic", "run.method=exact", "run.order=6", "run.tolerance=1e-8", "run.step=1 ms",
-                      "run.end=" + number(T) + " s", "output.step=" + number(T) + " s"})
+      Session(press_minimal, {"start.rule=periodic", "run.method=exact", "run.order=6", "run.tolerance=1e-8",
+                              "run.step=1 ms", "run.end=" + number(T) + " s", "output.step=" + number(T) + " s"})
           .run();
   const coupling::RunResult &history = *run.run;
   ASSERT_EQ(history.failure, "");

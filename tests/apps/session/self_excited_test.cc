@@ -11,8 +11,7 @@ namespace
 
 PeriodicResult steady(const std::string &text, const std::string &method = "")
 {
-  PeriodicRequest request;
-  request.method = method;
+  PeriodicRequest request{method};
   return periodic_of(text, request);
 }
 
@@ -49,8 +48,7 @@ std::string planar_crank(double torque, double rpm)
 TEST(SelfExcitedScene, HarmonicsAreAddedAlongABranch)
 {
   const std::string text = "[parameters]\nmu = 0.2\n" + van_der_pol("mu*(1 N*s/m - 1 N*s/m^3*u^2)*v");
-  PeriodicRequest   request;
-  request.method             = "harmonic-balance";
+  PeriodicRequest   request{"harmonic-balance"};
   request.along              = "parameters.mu";
   request.from               = "0.2";
   request.to                 = "4";
@@ -114,8 +112,7 @@ TEST(SelfExcitedScene, StickAndSlipOnABeltIsItsClosedSolutionAlongABranch)
   };
   for (const Case &one : {Case{"k", "100", "150"}, Case{"k", "150", "100"}, Case{"vb", "0.1", "0.2"}})
   {
-    PeriodicRequest request;
-    request.method              = "shooting";
+    PeriodicRequest request{"shooting"};
     request.along               = "parameters." + one.along;
     request.from                = one.from;
     request.to                  = one.to;

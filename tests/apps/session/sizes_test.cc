@@ -80,8 +80,7 @@ TEST(Sizes, OfRowsThatArePermittedAreJudgedByTheMemory)
 
 TEST(Sizes, OfHarmonicsAreLimited)
 {
-  PeriodicRequest request;
-  request.method           = "harmonic-balance";
+  PeriodicRequest request{"harmonic-balance"};
   request.own["harmonics"] = 1000000000;
   EXPECT_THAT(tests::refusal([&] { tests::periodic_of(tests::duffing(0.05, 0.1, 0.2, 1.2), request); }),
               HasSubstr("--harmonics is 1000000000"));

@@ -1,5 +1,6 @@
 // Modal superposition (5.5.3/8 to 13) of a chain of masses, held at one end and driven at the other.
 
+#include "apps/analysis/periodic/periodic_motions.h"
 #include "apps/scene/build/build_machine.h"
 #include "apps/session/session.h"
 #include "coupling/modes/superposition.h"
@@ -270,10 +271,9 @@ TEST(ModalSuperposition, IsNoGroundForBranches)
   const ChainScene scene;
   PeriodicRequest  request;
   request.along = "element.load.constant";
-  request.from  = "30 N";
-  request.to    = "60 N";
-  expect_refusal([&] { Session(scene.path("method = 'modal'\nmodes = 6", load)).periodic(request); },
-                 "a branch follows coordinates");
+  request.from = request.to = "30 N";
+  Session session(scene.path("method = 'modal'\nmodes = 6", load));
+  expect_refusal([&] { begin_branches(session, request); }, "a branch follows coordinates");
 }
 
 TEST(ModalSuperposition, IsRefusedWhereTheEigenproblemIsSingular)

@@ -1,7 +1,7 @@
-#include "apps/session/periodic_branches.h"
+#include "apps/analysis/periodic/periodic_branches.h"
 
+#include "apps/analysis/periodic/periodic_entry.h"
 #include "apps/scene/build/build_machine.h"
-#include "apps/session/periodic_answer.h"
 #include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/verified_orbit.h"
 

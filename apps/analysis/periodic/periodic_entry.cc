@@ -1,4 +1,4 @@
-#include "apps/session/periodic_answer.h"
+#include "apps/analysis/periodic/periodic_entry.h"
 
 #include "coupling/machine/accelerations.h"
 #include "coupling/periodic/harmonic/fourier_transform.h"
@@ -90,25 +90,6 @@ void trace_signals(coupling::Machine &machine, const coupling::PeriodicProblem &
 
 } // namespace
 
-ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string &name)
-{
-  const coupling::PeriodicProblem &problem = repeating.problem;
-  if (!name.empty())
-  {
-    const coupling::PeriodicMethod &method = coupling::periodic_method(name);
-    if (const std::string why = method.refuses(problem); !why.empty())
-      throw std::invalid_argument("--method " + name + ": " + why);
-    return {&method, "asked for"};
-  }
-  const std::string why = coupling::shooting_method().refuses(problem);
-  if (!why.empty())
-    return {&coupling::settling_method(), why};
-  constexpr int few_coordinates = 3; // up to which all solutions are searched by default
-  if (problem.turn.size() <= few_coordinates && !problem.period_is_unknown())
-    return {&coupling::minimising_method(), "few coordinates: all solutions are looked for"};
-  return {&coupling::shooting_method(), "it takes few periods, and tells the stability"};
-}
-
 void check_options(const PeriodicRequest &request, const coupling::PeriodicMethod &method)
 {
   if (const std::string none = coupling::why_no_branch(method); !request.along.empty() && !none.empty())
@@ -145,20 +126,6 @@ void check_options(const PeriodicRequest &request, const coupling::PeriodicMetho
     throw std::invalid_argument("--" + name + " does nothing here, as the motion is found by " + method.name() +
                                 "; add --method " + (*serves)->name() + ", or leave it out");
   }
-}
-
-coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
-                                           const coupling::Machine &machine)
-{
-  coupling::PeriodicOptions options;
-  options.own = request.own;
-  if (request.tolerance > 0.)
-    options.tolerance = request.tolerance;
-  options.integration = periodic_integration(scene, machine);
-  // Other methods leave larger residuals than exact propagation.
-  if (!(request.tolerance > 0.) && options.integration.method != coupling::PeriodicOptions().integration.method)
-    options.tolerance = std::max(1e-8, 10. * options.integration.tolerance);
-  return options;
 }
 
 PeriodicSolution of_own_period(const coupling::PeriodicMethod &method, const coupling::PeriodicProblem &problem,

@@ -1,4 +1,4 @@
-#include "apps/session/basin_answer.h"
+#include "apps/analysis/periodic/basin_answer.h"
 
 #include "apps/scene/build/build_machine.h"
 #include "apps/session/option_value.h"

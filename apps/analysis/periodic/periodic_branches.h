@@ -1,7 +1,7 @@
 #pragma once
 
+#include "apps/analysis/periodic/scene_family.h"
 #include "apps/output/values/periodic_result.h"
-#include "apps/session/scene_family.h"
 
 #include <functional>
 

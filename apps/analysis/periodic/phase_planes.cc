@@ -1,6 +1,6 @@
-#include "apps/session/phase_planes.h"
+#include "apps/analysis/periodic/phase_planes.h"
 
-#include "apps/session/periodic_answer.h"
+#include "apps/analysis/periodic/periodic_entry.h"
 
 #include <algorithm>
 

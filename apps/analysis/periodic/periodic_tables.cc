@@ -1,4 +1,4 @@
-#include "apps/output/tables/periodic_tables.h"
+#include "apps/analysis/periodic/periodic_tables.h"
 
 #include "fem/values/number_text.h"
 
@@ -8,13 +8,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-std::string parameter_head(const PeriodicResult &result)
-{
-  return result.parameter.empty()
-             ? "parameter"
-             : result.parameter + (result.parameter_unit.empty() ? "" : " [" + result.parameter_unit + "]");
-}
 
 /// Nothing where no parameter is followed.
 std::optional<double> parameter_of(const PeriodicResult &result, double value)
@@ -58,6 +51,13 @@ std::string percent(double share)
 }
 
 } // namespace
+
+std::string parameter_head(const PeriodicResult &result)
+{
+  return result.parameter.empty()
+             ? "parameter"
+             : result.parameter + (result.parameter_unit.empty() ? "" : " [" + result.parameter_unit + "]");
+}
 
 std::string kind_of(const coupling::PeriodicSolution &solution)
 {

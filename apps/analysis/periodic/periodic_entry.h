@@ -1,7 +1,6 @@
 #pragma once
 
 #include "apps/output/values/periodic_result.h"
-#include "apps/session/prepared_machine.h"
 #include "apps/session/repeating_machine.h"
 #include "coupling/periodic/periodic_method.h"
 #include "coupling/simulation/simulation.h"
@@ -13,25 +12,9 @@
 namespace gestell::apps
 {
 
-/// A method for periodic solutions, and the reason for its choice.
-struct ChosenMethod
-{
-  const coupling::PeriodicMethod *method = nullptr;
-  std::string                     reason;
-};
-
-/// The method of this name; without a name the first one that can treat the machine (for small machines one that finds
-/// all solutions).
-/// @throws std::invalid_argument if it cannot treat the machine, with a method that can
-ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string &name);
-
 /// Checks that the method, or the one that verifies it, accepts every option.
 /// @throws std::invalid_argument
 void check_options(const PeriodicRequest &request, const coupling::PeriodicMethod &method);
-
-/// Options of the methods; a machine that exact propagation cannot treat is integrated as in [run].
-coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
-                                           const coupling::Machine &machine);
 
 /// The solution over its own period, recomputed, if it repeats earlier than after `solution.ratio` periods of the
 /// excitation.

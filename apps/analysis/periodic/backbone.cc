@@ -1,6 +1,6 @@
-#include "apps/session/backbone.h"
+#include "apps/analysis/periodic/backbone.h"
 
-#include "apps/session/periodic_answer.h"
+#include "apps/analysis/periodic/periodic_entry.h"
 #include "coupling/periodic/averaging/slow_flow.h"
 
 #include <algorithm>

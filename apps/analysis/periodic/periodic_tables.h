@@ -10,6 +10,9 @@
 namespace gestell::apps
 {
 
+/// "parameters.n [rad/s]"
+std::string parameter_head(const PeriodicResult &result);
+
 CsvTable solutions_csv(const PeriodicResult &result);
 CsvTable multipliers_csv(const PeriodicResult &result);
 CsvTable special_points_csv(const PeriodicResult &result);

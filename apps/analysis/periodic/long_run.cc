@@ -1,7 +1,7 @@
-#include "apps/session/long_run.h"
+#include "apps/analysis/periodic/long_run.h"
 
+#include "apps/analysis/periodic/phase_planes.h"
 #include "apps/scene/build/build_machine.h"
-#include "apps/session/phase_planes.h"
 #include "coupling/machine/accelerations.h"
 #include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/recurrence.h"

@@ -1,4 +1,4 @@
-#include "apps/output/report/periodic_charts.h"
+#include "apps/analysis/periodic/periodic_charts.h"
 
 #include "fem/values/number_text.h"
 
@@ -269,7 +269,7 @@ Chart section_chart(const PhasePlane &plane, int periods)
 {
   Chart chart = plane_of(plane);
   chart.title = plane.name + ", Poincaré section";
-  chart.note  = "at the begin of " + std::to_string(periods) + " periods of the excitation";
+  chart.note  = "at the start of " + std::to_string(periods) + " periods of the excitation";
   for (const PhasePlane::Curve &motion : plane.curves)
     chart.panels[0].curves.push_back({"", motion.x, motion.rate, 0, LineStyle::none, Marker::disc});
   return chart;

@@ -1,4 +1,4 @@
-#include "apps/session/scene_family.h"
+#include "apps/analysis/periodic/scene_family.h"
 
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/repeating_machine.h"
