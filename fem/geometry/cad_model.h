@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct MeshGroups
   std::map<std::string, std::vector<std::vector<std::size_t>>> faces; ///< corners of each face
 };
 
+struct CadShape;
+
 /// Contents of a CAD or mesh file; the geometry (and the mesh, if present) stays in gmsh.
 struct CadModel
 {
@@ -38,6 +41,8 @@ struct CadModel
   MeshGroups               groups;
   std::vector<std::string> notes;      ///< warnings
   std::vector<std::string> statements; ///< results without warning, such as joined solids
+
+  std::shared_ptr<const CadShape> shape; ///< what gmsh was given; null: gmsh drew or changed it
 
   double diagonal() const;
   double volume() const;

@@ -305,26 +305,17 @@ void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
   }
 }
 
-/// Colours and layers are read only if a surface is selected by name.
-FaceAttributes wanted_attributes(const FrameSpecification &specification)
-{
-  for (const auto &surface : specification.surfaces)
-    if (surface.second.group)
-      return FaceAttributes::read;
-  return FaceAttributes::left;
-}
-
 /// The model, with a note if its size is unlikely.
-CadModel read_model(const FrameSpecification &specification, const GmshSession &session, FaceAttributes attributes)
+CadModel read_model(const FrameSpecification &specification, const GmshSession &session)
 {
-  CadModel model = read_cad(specification, session, attributes);
+  CadModel model = read_cad(specification, session);
   if (const std::string note = suspect_size(model, source_of(specification)); !note.empty())
     model.notes.push_back(note);
   return model;
 }
 
-MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, FaceAttributes attributes,
-                       const ChildProgress &progress, const std::vector<SizePoint> &refined = {})
+MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, const ChildProgress &progress,
+                       const std::vector<SizePoint> &refined = {})
 {
   const GmshSession session;
   MeshedModel       result;
@@ -332,7 +323,7 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
     progress(mesh_phase::reading, -1.);
   const auto work = [&]
   {
-    result.model = read_model(specification, session, attributes);
+    result.model = read_model(specification, session);
     if (result.model.meshed)
       read_mesh(result, specification);
     else
@@ -366,8 +357,7 @@ GeometryReport report_of(const MeshedModel &meshed)
 Mesh mesh_of_frame(const FrameSpecification &specification, const ChildProgress &progress,
                    const std::vector<SizePoint> &refined)
 {
-  return mesh_model(specification, MissingSize::refused, wanted_attributes(specification), progress, refined)
-      .extracted.mesh;
+  return mesh_model(specification, MissingSize::refused, progress, refined).extracted.mesh;
 }
 
 GeometryReport inspection_of_frame(const FrameSpecification &specification)
@@ -376,7 +366,7 @@ GeometryReport inspection_of_frame(const FrameSpecification &specification)
   MeshedModel       result;
   const auto        work = [&]
   {
-    result.model = read_model(specification, session, wanted_attributes(specification));
+    result.model = read_model(specification, session);
     if (result.model.meshed)
     {
       read_mesh(result, specification);
@@ -395,7 +385,7 @@ GeometryReport inspection_of_frame(const FrameSpecification &specification)
 
 GeometryReport report_of_frame(const FrameSpecification &specification, const ChildProgress &progress)
 {
-  MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, FaceAttributes::read, progress);
+  MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, progress);
   const Mesh    &mesh   = meshed.extracted.mesh;
   GeometryReport report = report_of(meshed);
   report.notes          = mesh.notes;
