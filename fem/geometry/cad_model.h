@@ -18,7 +18,9 @@ struct Solid
   std::string      name;
   double           volume = 0.;
   Vector3          min{}, max{};
-  std::vector<int> faces; ///< tags of its boundary
+  std::vector<int> faces;        ///< tags of its boundary
+  std::string      material{};   ///< of the file, "" for none
+  double           density = 0.; ///< of the file [kg/m^3], 0 for none
 };
 
 /// Named groups of nodes and of cell faces in a mesh file, in addition to volumes and surfaces; nodes by gmsh's tags.

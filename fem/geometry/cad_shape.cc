@@ -172,6 +172,8 @@ void apply_labels(CadModel &model)
   {
     const ShapeLabel label = label_of(shapes.solids.at(solid.tag));
     solid.name             = label.name.empty() ? solid.name : label.name;
+    solid.material         = label.material;
+    solid.density          = label.density;
   }
   for (Face &face : model.faces)
   {

@@ -17,8 +17,10 @@ namespace gestell::fem
 /// Attributes of a solid or a face in the file.
 struct ShapeLabel
 {
-  std::string              name;   ///< "" for none
-  std::vector<std::string> groups; ///< layers and colours ("#ff8000") of a face
+  std::string              name;         ///< "" for none
+  std::vector<std::string> groups;       ///< layers and colours ("#ff8000") of a face
+  std::string              material;     ///< of a solid, "" for none
+  double                   density = 0.; ///< [kg/m^3], 0 for none
 };
 
 /// The shapes of a STEP or BREP file, in gmsh's unit.

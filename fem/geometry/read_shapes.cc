@@ -1,5 +1,7 @@
 #include "fem/geometry/read_shapes.h"
 
+#include "fem/geometry/step_materials.h"
+
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <Interface_Static.hxx>
@@ -134,6 +136,7 @@ std::shared_ptr<CadShape> read_step(const CadSource &source)
     result->whole       = reader.ChangeReader().OneShape();
     result->n_described = described_solids(reader.ChangeReader().StepModel());
     read_labels(*result, document->Main());
+    read_step_materials(*result, reader.ChangeReader());
   }
   application->Close(document);
   if (!done)

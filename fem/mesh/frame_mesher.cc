@@ -68,13 +68,40 @@ Selection select_all(CadModel &model, const FrameSpecification &specification)
   return selection;
 }
 
-/// Before the mesh, which may take long.
-void check_materials(const CadModel &model, const FrameSpecification &specification)
+/// Whose density counts, before the mesh, which may take long.
+void check_materials(CadModel &model, const FrameSpecification &specification)
 {
   std::vector<std::string> names;
   for (const Solid &solid : model.solids)
     names.push_back(solid.name);
-  check_solids_of_materials(specification, names);
+  const std::vector<Material>                     materials = materials_of(specification, names);
+  std::map<std::string, std::vector<std::string>> of_file, differ; // solids by text
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const Solid      &solid = model.solids[i];
+    const Material   &given = materials[i];
+    const std::string own =
+        text(solid.density) + " kg/m^3" + (solid.material.empty() ? "" : " (" + solid.material + ")");
+    if (given.E == 0.)
+      continue; // only the mesh is wanted
+    if (given.rho == 0. && solid.density == 0.)
+      throw std::invalid_argument((given.place.empty() ? specification.place : given.place) +
+                                  ": no density rho is given, and " + specification.cad + " has none for solid \"" +
+                                  solid.name + "\"; add one, such as rho = \"7850 kg/m^3\" of steel.");
+    constexpr double rounding = 1e-3; // of a density in a CAD file: three or four digits
+    if (given.rho == 0.)
+      of_file["the density is " + own + ", from the file"].push_back(solid.name);
+    else if (solid.density > 0. && std::abs(given.rho / solid.density - 1.) > rounding)
+      differ["the density is " + text(given.rho) + " kg/m^3, but " + own + " in the file"].push_back(solid.name);
+  }
+  const auto lines = [](const auto &solids_by_text, std::vector<std::string> &result)
+  {
+    for (const auto &[words, solids] : solids_by_text)
+      result.push_back("solid \"" + solids.front() + "\"" +
+                       (solids.size() > 1 ? " and " + std::to_string(solids.size() - 1) + " more" : "") + ": " + words);
+  };
+  lines(of_file, model.statements);
+  lines(differ, model.notes);
 }
 
 /// Sides of hexahedra and prisms are straight.
@@ -331,6 +358,8 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
     require_thick_cells(result.extracted.mesh, result.model.meshed, head_of(specification));
     name_surfaces(result, specification);
     Mesh &mesh = result.extracted.mesh;
+    for (const Solid &solid : result.model.solids)
+      mesh.densities.push_back(solid.density);
     mesh.notes.insert(mesh.notes.begin(), result.model.notes.begin(), result.model.notes.end());
     mesh.statements.insert(mesh.statements.begin(), result.model.statements.begin(), result.model.statements.end());
   };

@@ -47,7 +47,7 @@ struct Material
 {
   double      E   = 0.; ///< Young's modulus [Pa]
   double      nu  = 0.; ///< Poisson's ratio
-  double      rho = 0.; ///< density [kg/m^3]
+  double      rho = 0.; ///< density [kg/m^3]; 0: of the STEP file
   std::string place;
   std::string name{}; ///< "steel", for reports
 };
