@@ -37,6 +37,7 @@ struct MeshCommandOptions
   double      max_cells = 2e6;
   std::string gap;                      ///< a length: solids at most that far apart are joined
   std::string density;                  ///< of all solids; by default of the file, else of steel
+  std::string sew;                      ///< a length: edges at most that far apart are joined
   std::string defeature;                ///< a length: smaller faces and edges are removed
   std::string overlaps  = "refused";    ///< or "once"
   std::string plates    = "tetrahedra"; ///< or "swept"
@@ -105,6 +106,7 @@ fem::FrameSpecification frame_of(const CommonOptions &options, const MeshCommand
   frame.mesh.size      = length_option("--size", mesh.size);
   frame.mesh.gap       = length_option("--gap", mesh.gap);
   frame.mesh.defeature = length_option("--defeature", mesh.defeature);
+  frame.sew            = length_option("--sew", mesh.sew);
   frame.mesh.bodies    = mesh.bodies;
   frame.mesh.overlaps  = mesh.overlaps == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
   frame.mesh.plates    = mesh.plates == "swept" ? fem::Plates::swept : fem::Plates::tetrahedra;
@@ -241,6 +243,7 @@ Command mesh_command()
            {"tetrahedra", "swept"}),
        {"--density", &own->density,
         "of all solids, such as \"2700 kg/m^3\" (default: of the STEP file, else of steel)"},
+       {"--sew", &own->sew, "join edges of open shells at most that far apart, such as \"0.05 mm\""},
        {"--defeature", &own->defeature, "remove faces and edges smaller than this, such as \"2 mm\""},
        {"--selectors", &own->selectors, "write surfaces as entries [frame.surface.NAME] of a scene"}},
       [own](const CommonOptions &options) { return make_mesh(options, *own); }};

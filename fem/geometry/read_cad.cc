@@ -7,6 +7,7 @@
 #include "fem/geometry/inp/inp_file.h"
 #include "fem/geometry/read_shapes.h"
 #include "fem/geometry/script_sandbox.h"
+#include "fem/geometry/sewing.h"
 #include "fem/geometry/shells.h"
 #include "fem/geometry/solid_union.h"
 #include "fem/values/cad_source.h"
@@ -171,7 +172,7 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
         "; needed is at least one " +
         (model.meshed
              ? "volume meshed with tetrahedra: mesh it in 3D before saving; model a plate as a solid of its thickness."
-             : "closed solid: sew the faces into a solid and export it as a solid."));
+             : "closed solid: " + way_to_close(source) + "."));
   }
   for (const Solid &solid : model.solids)
     if (!model.meshed && !(solid.volume > 0.))
@@ -260,7 +261,9 @@ CadModel read_model(const CadSource &source, CadFile file, const std::string &op
         if (file == CadFile::step || file == CadFile::brep)
         {
           const auto shape = file == CadFile::step ? read_step(source) : read_brep(source);
-          model.shape      = shape;
+          if (source.sew > 0.)
+            model.statements.push_back(sew(*shape, source, model.unit));
+          model.shape = shape;
           give_to_gmsh(shape->whole, file == CadFile::brep ? Precision::Confusion() : 0.);
         }
         else
@@ -309,7 +312,7 @@ CadModel open_cad(const CadSource &source, const GmshSession &session)
 
 CadSource source_of(const FrameSpecification &specification)
 {
-  return {specification.cad, specification.unit, specification.place, specification.scripts};
+  return {specification.cad, specification.unit, specification.place, specification.scripts, specification.sew};
 }
 
 CadModel read_cad(const FrameSpecification &specification, const GmshSession &session)
@@ -320,6 +323,9 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
     throw std::invalid_argument(source.place + ": " + source.path +
                                 " contains triangles but no volume; a frame needs a solid: export it as STEP, or give "
                                 "a tetrahedral mesh as .msh.");
+  if (source.sew > 0. && file != CadFile::step && file != CadFile::brep)
+    throw std::invalid_argument(source.place + ": repair is for STEP and BREP files, but " + source.path +
+                                " is none; remove it.");
   if (specification.mesh.size > 0.) // for scripts that mesh by themselves: they read Mesh.MeshSizeMax
     gmsh::option::setNumber("Mesh.MeshSizeMax", specification.mesh.size / (source.unit > 0. ? source.unit : 1.));
   CadModel model = open_cad(source, session);

@@ -55,6 +55,13 @@ std::vector<int> loose_faces()
 
 } // namespace
 
+std::string way_to_close(const CadSource &source)
+{
+  return (source.sew > 0. ? "repair has sewn within " + text(1e3 * source.sew) + " mm: give a larger distance"
+                          : std::string("sew the faces by repair = \"sew\" where gaps are small")) +
+         ", or close it in the CAD program (sew or heal) and export it again";
+}
+
 std::string open_edges_of_faces(const CadModel &model)
 {
   const std::vector<int> loose = loose_faces();
@@ -69,8 +76,7 @@ void check_shells(CadModel &model, const CadSource &source)
   for (const Solid &solid : model.solids)
     if (const std::vector<int> open = open_edges(solid.faces, degenerate); !open.empty())
       throw std::invalid_argument(head + ": the shell of solid \"" + solid.name + "\" is " +
-                                  reported(open, model.unit) +
-                                  ", lengths in m; close it in the CAD program (sew or heal), and export it again.");
+                                  reported(open, model.unit) + ", lengths in m; " + way_to_close(source) + ".");
   const std::vector<int> loose = loose_faces();
   if (loose.empty())
     return;
@@ -80,8 +86,7 @@ void check_shells(CadModel &model, const CadSource &source)
     if (const int described = model.shape->n_described; described > static_cast<int>(model.solids.size()))
       throw std::invalid_argument(head + " contains " + std::to_string(described) + " solids, but only " +
                                   std::to_string(model.solids.size()) + " are closed; there are " + left +
-                                  open_edges_of_faces(model) +
-                                  ": close the shell in the CAD program (sew or heal), and export it again.");
+                                  open_edges_of_faces(model) + ": " + way_to_close(source) + ".");
   model.notes.push_back(left + open_edges_of_faces(model) + ": they are ignored, a shell has no mass here");
 }
 

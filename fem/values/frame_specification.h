@@ -166,7 +166,8 @@ struct FrameSpecification
   std::vector<CutSpecification>          cuts;
   bool                                   stress  = false; ///< stress recovery is requested
   Scripts                                scripts = Scripts::harmless;
-  std::string                            place; ///< "press.toml:12: frame"
+  double                                 sew     = 0.; ///< [m], as in CadSource
+  std::string                            place;        ///< "press.toml:12: frame"
 };
 
 } // namespace gestell::fem
