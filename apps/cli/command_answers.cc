@@ -195,6 +195,8 @@ std::string mesh_answer(const coupling::MeshReport &report)
     solids.push_back({{"name", solid.name},
                       {"volume_m3", solid.volume},
                       {"mass_kg", solid.mass},
+                      {"density_kg_m3", solid.density},
+                      {"material", solid.material},
                       {"min_m", solid.min},
                       {"max_m", solid.max}});
   for (const coupling::SurfaceReport &surface : report.surfaces)

@@ -36,7 +36,8 @@ struct MeshCommandOptions
   std::string unit; ///< length of what the file calls 1, such as "1 mm"; empty: the file knows
   double      max_cells = 2e6;
   std::string gap;                      ///< a length: solids at most that far apart are joined
-  std::string density;                  ///< solids are weighed with; steel by default
+  std::string density;                  ///< of all solids; by default of the file, else of steel
+  std::string sew;                      ///< a length: edges at most that far apart are joined
   std::string defeature;                ///< a length: smaller faces and edges are removed
   std::string overlaps  = "refused";    ///< or "once"
   std::string plates    = "tetrahedra"; ///< or "swept"
@@ -73,14 +74,13 @@ double length_option(const std::string &option, const std::string &text)
   return option_of(option, text, kind::length, "80 mm");
 }
 
-constexpr double steel = 7850.; ///< [kg/m^3] of structures; what is not steel is given in the scene
-
-/// "in steel", or with its density.
-std::string weighed(double density)
+/// "in steel", "at 2700 kg/m^3 (EN AW-6060)"
+std::string weighed(double density, const std::string &material = "")
 {
-  std::ostringstream text;
-  text << density;
-  return density == steel ? "in steel" : "at " + text.str() + " kg/m^3";
+  constexpr double steel = 7850.; // [kg/m^3] as the report takes without other knowledge
+  return std::abs(density / steel - 1.) < 1e-9 && material.empty() // 1e-9: rounding
+             ? "in steel"
+             : "at " + short_text(density) + " kg/m^3" + (material.empty() ? "" : " (" + material + ")");
 }
 
 void print_triple(const char *name, const std::array<double, 3> &x)
@@ -106,24 +106,24 @@ fem::FrameSpecification frame_of(const CommonOptions &options, const MeshCommand
   frame.mesh.size      = length_option("--size", mesh.size);
   frame.mesh.gap       = length_option("--gap", mesh.gap);
   frame.mesh.defeature = length_option("--defeature", mesh.defeature);
+  frame.sew            = length_option("--sew", mesh.sew);
   frame.mesh.bodies    = mesh.bodies;
   frame.mesh.overlaps  = mesh.overlaps == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
   frame.mesh.plates    = mesh.plates == "swept" ? fem::Plates::swept : fem::Plates::tetrahedra;
   frame.mesh.max_cells = mesh.max_cells;
   frame.mesh.place     = "gestell mesh";
-  const double density = option_of("--density", mesh.density, kind::density, "2700 kg/m^3");
-  frame.material       = {210e9, 0.3, density > 0. ? density : steel, "gestell mesh"};
+  frame.material.rho   = option_of("--density", mesh.density, kind::density, "2700 kg/m^3");
   frame.place          = "gestell mesh";
   frame.scripts        = options.scripts;
   return frame;
 }
 
-void print_solids(const coupling::MeshReport &report, double density)
+void print_solids(const coupling::MeshReport &report)
 {
   for (const coupling::SolidReport &solid : report.solids)
   {
     std::cout << "  solid \"" << solid.name << "\": " << solid.volume << " m^3, " << solid.mass << " kg "
-              << weighed(density);
+              << weighed(solid.density, solid.material);
     print_triple(", from", solid.min);
     print_triple(" to", solid.max);
     std::cout << '\n';
@@ -189,7 +189,7 @@ void write_faces(const std::filesystem::path &folder, const coupling::MeshReport
 int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
 {
   const fem::FrameSpecification frame = frame_of(options, mesh);
-  if (const std::string suspicion = suspect_density(frame.material.rho); !suspicion.empty())
+  if (const std::string suspicion = suspect_density(frame.material.rho); frame.material.rho > 0. && !suspicion.empty())
     std::cerr << "gestell: warning: --density " << suspicion << '\n';
   std::optional<ResultsLock> held;
   if (!mesh.folder.empty())
@@ -205,8 +205,8 @@ int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
     answer_with(mesh_answer(report));
 
   std::cout << std::setprecision(6) << options.input << ": " << report.solids.size() << " solid(s), volume "
-            << report.volume << " m^3, " << report.mass << " kg " << weighed(frame.material.rho) << '\n';
-  print_solids(report, frame.material.rho);
+            << report.volume << " m^3, " << report.mass << " kg " << weighed(report.mass / report.volume) << '\n';
+  print_solids(report);
   for (const std::string &statement : report.statements)
     std::cout << statement << '\n';
   for (const std::string &note : report.notes)
@@ -241,7 +241,9 @@ Command mesh_command()
            .one_of({"refused", "once"}),
        CommandOption{"--plates", &own->plates, "tetrahedra, or swept: hexahedra through the thickness of walls"}.one_of(
            {"tetrahedra", "swept"}),
-       {"--density", &own->density, "what solids are weighed with, such as \"2700 kg/m^3\" (steel)"},
+       {"--density", &own->density,
+        "of all solids, such as \"2700 kg/m^3\" (default: of the STEP file, else of steel)"},
+       {"--sew", &own->sew, "join edges of open shells at most that far apart, such as \"0.05 mm\""},
        {"--defeature", &own->defeature, "remove faces and edges smaller than this, such as \"2 mm\""},
        {"--selectors", &own->selectors, "write surfaces as entries [frame.surface.NAME] of a scene"}},
       [own](const CommonOptions &options) { return make_mesh(options, *own); }};

@@ -12,6 +12,8 @@ struct SolidReport
   std::string           name;
   double                volume = 0., mass = 0.; ///< [m^3], [kg]
   std::array<double, 3> min{}, max{};           ///< [m]
+  double                density = 0.;           ///< of the mass [kg/m^3]
+  std::string           material{};             ///< of a STEP file
 };
 
 struct SurfaceReport

@@ -37,13 +37,13 @@ void require_valid(const Material &material)
 
 CellMaterials cell_materials(const Mesh &mesh, const FrameSpecification &specification)
 {
-  require_valid(specification.material);
-  CellMaterials result{{mesh.solids.size(), specification.material}, mesh.cell_solid};
-  for (const auto &named : specification.materials)
+  CellMaterials result{materials_of(specification, mesh.solids), mesh.cell_solid};
+  for (std::size_t solid = 0; solid < result.materials.size(); ++solid)
   {
-    require_valid(named.second);
-    for (const std::size_t solid : solids_of(named, mesh.solids))
-      result.materials[solid] = named.second;
+    Material &material = result.materials[solid];
+    if (material.rho == 0. && solid < mesh.densities.size())
+      material.rho = mesh.densities[solid];
+    require_valid(material);
   }
   return result;
 }

@@ -21,8 +21,7 @@ struct CellMaterials
 void require_valid(const Material &material);
 
 /**
- * The material of each solid: the last of specification.materials whose pattern matches its name, else
- * specification.material.
+ * The material of each solid, see materials_of(); rho = 0 stands for the density of the file.
  *
  * @throws std::invalid_argument for impossible materials (require_valid) and for a pattern without a matching solid,
  * with the names of solids.

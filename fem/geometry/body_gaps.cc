@@ -1,18 +1,15 @@
 #include "fem/geometry/body_gaps.h"
 
-#include "fem/geometry/occ_snapshot.h"
+#include "fem/geometry/cad_shape.h"
 #include "fem/values/vector3.h"
 
 #include <BRepBndLib.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
-#include <BRepGProp.hxx>
 #include <Bnd_Box.hxx>
-#include <GProp_GProps.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS_Shape.hxx>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <queue>
 #include <tuple>
 
@@ -26,8 +23,7 @@ struct ShapeFace
 {
   TopoDS_Shape shape;
   Bnd_Box      box;
-  Vector3      centre;
-  double       area;
+  const Face  *face;
 };
 
 struct ShapeSolid
@@ -48,54 +44,25 @@ Vector3 vector(const gp_Pnt &p)
   return {p.X(), p.Y(), p.Z()};
 }
 
-/// How unlike a shape and a solid of the model are, 0 for the same.
-double unlike(const Solid &solid, double volume, const Bnd_Box &box, double unit)
+/// The shapes of the solids with their outer faces, in the order of the model.
+std::vector<ShapeSolid> shapes_of_solids(const CadModel &model)
 {
-  const Vector3 low = unit * vector(box.CornerMin()), high = unit * vector(box.CornerMax());
-  return std::abs(volume * unit * unit * unit / solid.volume - 1.) +
-         (norm(low - solid.min) + norm(high - solid.max)) / norm(solid.max - solid.min);
-}
-
-/// The shapes of the solids, in the order of the model.
-std::vector<ShapeSolid> shapes_of(const CadModel &model)
-{
-  std::vector<ShapeSolid> result(model.solids.size());
-  std::vector<double>     best(model.solids.size(), INFINITY);
-  const TopoDS_Shape      all = occ_snapshot();
-  for (TopExp_Explorer solid(all, TopAbs_SOLID); solid.More(); solid.Next())
+  const TaggedShapes          tagged = tagged_shapes(model);
+  std::map<int, const Face *> outer;
+  for (const Face &face : model.faces)
+    outer[face.tag] = &face;
+  std::vector<ShapeSolid> result;
+  for (const Solid &solid : model.solids)
   {
-    GProp_GProps properties;
-    BRepGProp::VolumeProperties(solid.Current(), properties);
-    ShapeSolid  shape{{}, box_of(solid.Current())};
-    std::size_t nearest = 0;
-    double      least   = INFINITY;
-    for (std::size_t i = 0; i < model.solids.size(); ++i)
-      if (const double u = unlike(model.solids[i], properties.Mass(), shape.box, model.unit); u < least)
+    result.push_back({{}, box_of(tagged.solids.at(solid.tag))});
+    for (const int tag : solid.faces)
+      if (const auto face = outer.find(tag); face != outer.end())
       {
-        least   = u;
-        nearest = i;
+        const TopoDS_Shape &shape = tagged.faces.at(tag);
+        result.back().faces.push_back({shape, box_of(shape), face->second});
       }
-    if (least >= best[nearest])
-      continue;
-    best[nearest] = least;
-    for (TopExp_Explorer face(solid.Current(), TopAbs_FACE); face.More(); face.Next())
-    {
-      GProp_GProps of_face;
-      BRepGProp::SurfaceProperties(face.Current(), of_face);
-      shape.faces.push_back({face.Current(), box_of(face.Current()), model.unit * vector(of_face.CentreOfMass()),
-                             model.unit * model.unit * of_face.Mass()});
-    }
-    result[nearest] = std::move(shape);
   }
   return result;
-}
-
-const Face &face_like(const ShapeFace &shape, const std::vector<Face> &faces)
-{
-  const auto unlike = [&](const Face &face)
-  { return norm(face.centre - shape.centre) + std::sqrt(std::abs(face.area - shape.area)); };
-  return *std::min_element(faces.begin(), faces.end(),
-                           [&](const Face &a, const Face &b) { return unlike(a) < unlike(b); });
 }
 
 /// |cosine| between a direction and the normal of a face at a point.
@@ -139,7 +106,7 @@ BodyGap gap_between(const ShapeSolid &a, const ShapeSolid &b, const CadModel &mo
       continue;
     const Vector3 from  = model.unit * vector(extrema.PointOnShape1(1)),
                   to    = model.unit * vector(extrema.PointOnShape2(1));
-    const Face  &face_a = face_like(*of_a, model.faces), &face_b = face_like(*of_b, model.faces);
+    const Face  &face_a = *of_a->face, &face_b = *of_b->face;
     const double opposite =
         distance > same ? facing(face_a, from, unit(to - from)) + facing(face_b, to, unit(to - from)) : 0.;
     if (distance > best.distance - same && opposite <= turned)
@@ -167,7 +134,7 @@ struct Candidate
 
 std::vector<BodyGap> nearest_gaps(const CadModel &model, const std::vector<int> &body)
 {
-  const std::vector<ShapeSolid>  shapes = shapes_of(model);
+  const std::vector<ShapeSolid>  shapes = shapes_of_solids(model);
   std::priority_queue<Candidate> queue;
   for (std::size_t i = 0; i < model.solids.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,9 @@ struct Solid
   std::string      name;
   double           volume = 0.;
   Vector3          min{}, max{};
-  std::vector<int> faces; ///< tags of its boundary
+  std::vector<int> faces;        ///< tags of its boundary
+  std::string      material{};   ///< of the file, "" for none
+  double           density = 0.; ///< of the file [kg/m^3], 0 for none
 };
 
 /// Named groups of nodes and of cell faces in a mesh file, in addition to volumes and surfaces; nodes by gmsh's tags.
@@ -26,6 +29,8 @@ struct MeshGroups
   std::map<std::string, std::vector<std::size_t>>              nodes;
   std::map<std::string, std::vector<std::vector<std::size_t>>> faces; ///< corners of each face
 };
+
+struct CadShape;
 
 /// Contents of a CAD or mesh file; the geometry (and the mesh, if present) stays in gmsh.
 struct CadModel
@@ -38,6 +43,8 @@ struct CadModel
   MeshGroups               groups;
   std::vector<std::string> notes;      ///< warnings
   std::vector<std::string> statements; ///< results without warning, such as joined solids
+
+  std::shared_ptr<const CadShape> shape; ///< what gmsh was given; null: gmsh drew or changed it
 
   double diagonal() const;
   double volume() const;

@@ -1,7 +1,7 @@
 #include "fem/geometry/defeature.h"
 
+#include "fem/geometry/cad_shape.h"
 #include "fem/geometry/gmsh_faces.h"
-#include "fem/geometry/occ_snapshot.h"
 #include "fem/geometry/shells.h"
 #include "fem/geometry/small_features.h"
 #include "fem/values/vector3.h"
@@ -9,11 +9,6 @@
 #include <gmsh.h>
 
 #include <BRepAlgoAPI_Defeaturing.hxx>
-#include <BRepGProp.hxx>
-#include <GProp_GProps.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS_Shape.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -25,40 +20,22 @@ namespace gestell::fem
 namespace
 {
 
-bool same_face(const Face &face, const TopoDS_Shape &shape, double unit)
+/// Removes faces by extension of their neighbours; the model stays as it is where that is impossible.
+void remove_faces(CadModel &model, const std::vector<int> &tags)
 {
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(shape, properties);
-  const gp_Pnt  c = properties.CentreOfMass();
-  const Vector3 centre{unit * c.X(), unit * c.Y(), unit * c.Z()};
-  const double  width = std::sqrt(face.area);
-  return norm(centre - face.centre) < 1e-4 * width &&
-         std::abs(unit * unit * properties.Mass() - face.area) < 1e-4 * face.area;
-}
-
-TopTools_ListOfShape shapes_of(const std::vector<int> &tags, const TopoDS_Shape &whole, const CadModel &model)
-{
-  TopTools_IndexedMapOfShape all;
-  TopExp::MapShapes(whole, TopAbs_FACE, all);
-  TopTools_ListOfShape shapes;
-  for (const Face &face : model.faces)
-    if (std::find(tags.begin(), tags.end(), face.tag) != tags.end())
-      for (int i = 1; i <= all.Extent(); ++i)
-        if (same_face(face, all(i), model.unit))
-        {
-          shapes.Append(all(i));
-          break;
-        }
-  return shapes;
-}
-
-/// The model's place in gmsh is taken by the shape.
-void put_back(const TopoDS_Shape &shape)
-{
+  const TaggedShapes      shapes = tagged_shapes(model);
+  BRepAlgoAPI_Defeaturing removal;
+  removal.SetShape(whole_shape(model));
+  for (const int tag : tags)
+    removal.AddFaceToRemove(shapes.faces.at(tag));
+  removal.Build();
+  if (!removal.IsDone() || removal.HasErrors())
+    return;
+  auto changed   = std::make_shared<CadShape>();
+  changed->whole = removal.Shape();
+  model.shape    = changed;
   gmsh::clear();
-  gmsh::vectorpair entities;
-  gmsh::model::occ::importShapesNativePointer(&shape, entities);
-  gmsh::model::occ::synchronize();
+  give_to_gmsh(changed->whole);
 }
 
 void remove_short_edges(double size)
@@ -146,18 +123,13 @@ void defeature(CadModel &model, const FrameSpecification &specification, const G
       [&]
       {
         if (!small.empty())
-        {
-          const TopoDS_Shape      whole = occ_snapshot();
-          BRepAlgoAPI_Defeaturing removal;
-          removal.SetShape(whole);
-          removal.AddFacesToRemove(shapes_of(small, whole, model));
-          removal.Build();
-          if (removal.IsDone() && !removal.HasErrors())
-            put_back(removal.Shape());
-        }
+          remove_faces(model, small);
         model.faces = outer_faces(model.unit, model.diagonal());
         if (small_features(model, size).n_short_edges > 0)
+        {
           remove_short_edges(size / model.unit);
+          model.shape.reset();
+        }
       },
       specification.mesh.place + ": defeature = " + text(size) + " m fails: ",
       "; use a smaller one, or simplify the model in the CAD program.");

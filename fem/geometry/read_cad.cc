@@ -1,25 +1,23 @@
 #include "fem/geometry/read_cad.h"
 
 #include "fem/geometry/cad_file.h"
-#include "fem/geometry/cad_model.h"
+#include "fem/geometry/cad_shape.h"
 #include "fem/geometry/defeature.h"
 #include "fem/geometry/gmsh_faces.h"
 #include "fem/geometry/inp/inp_file.h"
+#include "fem/geometry/read_shapes.h"
 #include "fem/geometry/script_sandbox.h"
+#include "fem/geometry/sewing.h"
 #include "fem/geometry/shells.h"
 #include "fem/geometry/solid_union.h"
-#include "fem/geometry/step_attributes.h"
 #include "fem/values/cad_source.h"
 #include "fem/values/vector3.h"
 
-#include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
-#include <TopoDS_Shape.hxx>
+#include <Precision.hxx>
 #include <gmsh.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -88,53 +86,6 @@ MeshGroups load_inp(CadModel &model, const CadSource &source)
     gmsh::model::mesh::addElementsByType(volume.at(elements.solid), elements.gmsh_type, elements.numbers,
                                          elements.nodes);
   return {mesh.node_sets, mesh.faces};
-}
-
-/// " at line 37", or nothing if reading went to the end.
-std::string place_of(std::ifstream &in)
-{
-  in.exceptions(std::ios::goodbit);
-  const bool at_end = in.eof();
-  in.clear();
-  const std::streamoff bytes = in.tellg();
-  if (at_end || bytes < 0)
-    return "";
-  in.seekg(0);
-  std::string text(static_cast<std::size_t>(bytes), '\0');
-  in.read(text.data(), bytes);
-  return " at line " + std::to_string(1 + std::count(text.begin(), text.end(), '\n'));
-}
-
-/**
- * Reads a BREP file by OpenCASCADE from a stream that throws at the first missing or malformed number. Without this
- * check, a wrong count or a missing entry makes OpenCASCADE read past the end of the file for hours or without end.
- *
- * OpenCASCADE may crash on a damaged file: call this where gmsh reads.
- *
- * @throws std::invalid_argument if the file ends before its entries do, or, with the line, contains a word in place of
- *   a number; Standard_Failure by OpenCASCADE
- */
-void check_brep_file(const CadSource &source)
-{
-  std::ifstream in(source.path, std::ios::binary);
-  if (!in)
-    throw std::invalid_argument(source.place + ": " + source.path + " cannot be read; check its permissions.");
-  in.exceptions(std::ios::failbit | std::ios::badbit);
-  try
-  {
-    TopoDS_Shape       shape;
-    const BRep_Builder builder;
-    BRepTools::Read(shape, in, builder);
-  }
-  catch (const std::ios::failure &)
-  {
-    const std::string place = place_of(in);
-    throw std::invalid_argument(
-        source.place + ": " + source.path + " is damaged" +
-        (place.empty() ? ": it ends before its shapes are complete: a count is too large or an entry is missing"
-                       : place + ": a number is expected there") +
-        "; copy or export it again.");
-  }
 }
 
 std::string physical_name(int dim, int tag)
@@ -208,10 +159,10 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
     gmsh::vectorpair faces;
     gmsh::model::getEntities(faces, 2);
     const std::string said    = session.errors();
-    const std::string what    = faces.empty() ? "no shape"
-                                              : "no closed solid, only " + std::to_string(faces.size()) +
-                                                 " faces (shells or surfaces)" +
-                                                 (model.meshed ? "" : open_edges_of_faces(model.unit));
+    const std::string what    = faces.empty()
+                                    ? "no shape"
+                                    : "no closed solid, only " + std::to_string(faces.size()) +
+                                       " faces (shells or surfaces)" + (model.meshed ? "" : open_edges_of_faces(model));
     const std::size_t n_shell = model.meshed ? shell_cells(model) : 0;
     const std::string cells   = n_shell == 0 ? " holds no tetrahedra"
                                              : " holds " + std::to_string(n_shell) +
@@ -221,7 +172,7 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
         "; needed is at least one " +
         (model.meshed
              ? "volume meshed with tetrahedra: mesh it in 3D before saving; model a plate as a solid of its thickness."
-             : "closed solid: sew the faces into a solid and export it as a solid."));
+             : "closed solid: " + way_to_close(source) + "."));
   }
   for (const Solid &solid : model.solids)
     if (!model.meshed && !(solid.volume > 0.))
@@ -297,22 +248,26 @@ std::string suspect_size(const CadModel &model, const CadSource &source)
 namespace
 {
 
-/// Reads `opened` instead of source.path.
+/// @param opened  that gmsh opens instead of source.path
 CadModel read_model(const CadSource &source, CadFile file, const std::string &opened, const GmshSession &session)
 {
   CadModel model;
   model.meshed = is_mesh(file) || file == CadFile::triangles;
   model.unit   = source.unit > 0. ? source.unit : 1.;
-  if (file == CadFile::step && source.unit > 0.)
-    gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
 
-  name_faces_of_step();
   session.run(
       [&]
       {
-        if (file == CadFile::brep)
-          check_brep_file(source);
-        file == CadFile::abaqus ? void(model.groups = load_inp(model, source)) : gmsh::open(opened);
+        if (file == CadFile::step || file == CadFile::brep)
+        {
+          const auto shape = file == CadFile::step ? read_step(source) : read_brep(source);
+          if (source.sew > 0.)
+            model.statements.push_back(sew(*shape, source, model.unit));
+          model.shape = shape;
+          give_to_gmsh(shape->whole, file == CadFile::brep ? Precision::Confusion() : 0.);
+        }
+        else
+          file == CadFile::abaqus ? void(model.groups = load_inp(model, source)) : gmsh::open(opened);
       },
       source.place + ": gmsh cannot read " + source.path + ": ",
       "; it may be damaged: export the model again, and check that gmsh opens it.");
@@ -324,6 +279,7 @@ CadModel read_model(const CadSource &source, CadFile file, const std::string &op
   gmsh::model::getEntities(solids, 3);
   for (const auto &[dim, tag] : solids)
     model.solids.push_back(solid_of(tag, model.unit, model.meshed));
+  session.run([&] { apply_labels(model); }, source.place + ": " + source.path + ": ", ".");
   if (file != CadFile::triangles)
     check_solids(model, source, session);
 
@@ -356,10 +312,10 @@ CadModel open_cad(const CadSource &source, const GmshSession &session)
 
 CadSource source_of(const FrameSpecification &specification)
 {
-  return {specification.cad, specification.unit, specification.place, specification.scripts};
+  return {specification.cad, specification.unit, specification.place, specification.scripts, specification.sew};
 }
 
-CadModel read_cad(const FrameSpecification &specification, const GmshSession &session, FaceAttributes attributes)
+CadModel read_cad(const FrameSpecification &specification, const GmshSession &session)
 {
   const CadSource source = source_of(specification);
   const CadFile   file   = check_cad_file(source);
@@ -367,6 +323,9 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
     throw std::invalid_argument(source.place + ": " + source.path +
                                 " contains triangles but no volume; a frame needs a solid: export it as STEP, or give "
                                 "a tetrahedral mesh as .msh.");
+  if (source.sew > 0. && file != CadFile::step && file != CadFile::brep)
+    throw std::invalid_argument(source.place + ": repair is for STEP and BREP files, but " + source.path +
+                                " is none; remove it.");
   if (specification.mesh.size > 0.) // for scripts that mesh by themselves: they read Mesh.MeshSizeMax
     gmsh::option::setNumber("Mesh.MeshSizeMax", specification.mesh.size / (source.unit > 0. ? source.unit : 1.));
   CadModel model = open_cad(source, session);
@@ -378,8 +337,7 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
   check_shells(model, source);
   join_solids(model, specification, session);
   model.faces = outer_faces(model.unit, model.diagonal());
-  if (file == CadFile::step && attributes == FaceAttributes::read)
-    add_step_attributes(model.faces, source);
+  apply_labels(model);
   check_bodies(model, specification);
   if (file != CadFile::geo)
     defeature(model, specification, session);

@@ -29,20 +29,12 @@ CadSource source_of(const FrameSpecification &specification);
 /// nothing.
 std::string suspect_size(const CadModel &model, const CadSource &source);
 
-/// Whether to read colours and layers of faces, which reads a STEP file a second time.
-enum class FaceAttributes
-{
-  read,
-  left
-};
-
 /**
  * Reads the .step, .stp, .brep, .geo (OpenCASCADE kernel), .msh or .inp file of a frame into gmsh, as open_cad() does,
  * with its outer faces.  Solids of STEP and BREP files are joined where they touch, see join_solids().
  *
  * @throws std::invalid_argument as open_cad(), check_shells(), join_solids() and check_bodies() do.
  */
-CadModel read_cad(const FrameSpecification &specification, const GmshSession &session,
-                  FaceAttributes attributes = FaceAttributes::left);
+CadModel read_cad(const FrameSpecification &specification, const GmshSession &session);
 
 } // namespace gestell::fem

@@ -1,8 +1,6 @@
 #include "fem/geometry/shells.h"
 
-#include "fem/geometry/cad_file.h"
-#include "fem/geometry/degenerate_edges.h"
-#include "fem/geometry/step_text.h"
+#include "fem/geometry/cad_shape.h"
 #include "fem/values/vector3.h"
 
 #include <gmsh.h>
@@ -57,34 +55,39 @@ std::vector<int> loose_faces()
 
 } // namespace
 
-std::string open_edges_of_faces(double unit)
+std::string way_to_close(const CadSource &source)
+{
+  return (source.sew > 0. ? "repair has sewn within " + text(1e3 * source.sew) + " mm: give a larger distance"
+                          : std::string("sew the faces by repair = \"sew\" where gaps are small")) +
+         ", or close it in the CAD program (sew or heal) and export it again";
+}
+
+std::string open_edges_of_faces(const CadModel &model)
 {
   const std::vector<int> loose = loose_faces();
-  const std::vector<int> open  = loose.empty() ? loose : open_edges(loose, degenerate_edges());
-  return open.empty() ? "" : " (" + reported(open, unit) + ")";
+  const std::vector<int> open  = loose.empty() ? loose : open_edges(loose, degenerate_edges(model));
+  return open.empty() ? "" : " (" + reported(open, model.unit) + ")";
 }
 
 void check_shells(CadModel &model, const CadSource &source)
 {
   const std::string   head       = source.place + ": " + source.path;
-  const std::set<int> degenerate = degenerate_edges();
+  const std::set<int> degenerate = degenerate_edges(model);
   for (const Solid &solid : model.solids)
     if (const std::vector<int> open = open_edges(solid.faces, degenerate); !open.empty())
       throw std::invalid_argument(head + ": the shell of solid \"" + solid.name + "\" is " +
-                                  reported(open, model.unit) +
-                                  ", lengths in m; close it in the CAD program (sew or heal), and export it again.");
+                                  reported(open, model.unit) + ", lengths in m; " + way_to_close(source) + ".");
   const std::vector<int> loose = loose_faces();
   if (loose.empty())
     return;
   const std::string left =
       std::to_string(loose.size()) + (loose.size() == 1 ? " face that bounds" : " faces that bound") + " no solid";
-  if (is_step(source.path))
-    if (const int described = read_step_text(source.path).n_solids; described > static_cast<int>(model.solids.size()))
+  if (model.shape)
+    if (const int described = model.shape->n_described; described > static_cast<int>(model.solids.size()))
       throw std::invalid_argument(head + " contains " + std::to_string(described) + " solids, but only " +
                                   std::to_string(model.solids.size()) + " are closed; there are " + left +
-                                  open_edges_of_faces(model.unit) +
-                                  ": close the shell in the CAD program (sew or heal), and export it again.");
-  model.notes.push_back(left + open_edges_of_faces(model.unit) + ": they are ignored, a shell has no mass here");
+                                  open_edges_of_faces(model) + ": " + way_to_close(source) + ".");
+  model.notes.push_back(left + open_edges_of_faces(model) + ": they are ignored, a shell has no mass here");
 }
 
 } // namespace gestell::fem

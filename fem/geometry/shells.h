@@ -16,7 +16,10 @@ namespace gestell::fem
  */
 void check_shells(CadModel &model, const CadSource &source);
 
+/// The way to close an open shell.
+std::string way_to_close(const CadSource &source);
+
 /// " (its shell is open at 4 edges, one of them from (...) to (...))" for faces without a solid; "" if none is open.
-std::string open_edges_of_faces(double unit);
+std::string open_edges_of_faces(const CadModel &model);
 
 } // namespace gestell::fem

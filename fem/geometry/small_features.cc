@@ -1,6 +1,6 @@
 #include "fem/geometry/small_features.h"
 
-#include "fem/geometry/degenerate_edges.h"
+#include "fem/geometry/cad_shape.h"
 #include "fem/values/vector3.h"
 
 #include <gmsh.h>
@@ -40,7 +40,7 @@ SmallFeatures small_features(const CadModel &model, double limit)
   result.shortest_edge = result.narrowest_face = INFINITY;
   gmsh::vectorpair edges;
   gmsh::model::getEntities(edges, 1);
-  const std::set<int> degenerate = degenerate_edges();
+  const std::set<int> degenerate = degenerate_edges(model);
   for (const auto &[dim, tag] : edges)
   {
     if (degenerate.count(tag) > 0)

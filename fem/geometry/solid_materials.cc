@@ -24,10 +24,13 @@ std::vector<std::size_t> solids_of(const std::pair<std::string, Material> &named
   return fitting;
 }
 
-void check_solids_of_materials(const FrameSpecification &specification, const std::vector<std::string> &solids)
+std::vector<Material> materials_of(const FrameSpecification &specification, const std::vector<std::string> &solids)
 {
+  std::vector<Material> materials(solids.size(), specification.material);
   for (const auto &named : specification.materials)
-    solids_of(named, solids);
+    for (const std::size_t solid : solids_of(named, solids))
+      materials[solid] = named.second;
+  return materials;
 }
 
 } // namespace gestell::fem

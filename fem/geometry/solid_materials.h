@@ -18,7 +18,8 @@ namespace gestell::fem
 std::vector<std::size_t> solids_of(const std::pair<std::string, Material> &named,
                                    const std::vector<std::string>         &solids);
 
-/// Checks that every pattern of specification.materials matches a solid.  @throws as solids_of() does.
-void check_solids_of_materials(const FrameSpecification &specification, const std::vector<std::string> &solids);
+/// The material of each solid: the last of specification.materials whose pattern matches its name, else
+/// specification.material.  @throws as solids_of() does.
+std::vector<Material> materials_of(const FrameSpecification &specification, const std::vector<std::string> &solids);
 
 } // namespace gestell::fem

@@ -1,9 +1,13 @@
 #include "fem/geometry/solid_union.h"
 
 #include "fem/geometry/body_gaps.h"
+#include "fem/geometry/cad_shape.h"
 #include "fem/values/vector3.h"
 
 #include <gmsh.h>
+
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <TopTools_ListOfShape.hxx>
 
 #include <algorithm>
 #include <limits>
@@ -50,15 +54,6 @@ std::vector<SurfaceGroup> surface_groups()
   return result;
 }
 
-/// Faces of groups, each once.
-std::vector<int> faces_of(const std::vector<SurfaceGroup> &groups)
-{
-  std::set<int> faces;
-  for (const SurfaceGroup &group : groups)
-    faces.insert(group.faces.begin(), group.faces.end());
-  return {faces.begin(), faces.end()};
-}
-
 void restore(const std::vector<SurfaceGroup> &groups, std::map<int, std::vector<int>> &pieces_of_face)
 {
   gmsh::vectorpair before;
@@ -76,23 +71,60 @@ void restore(const std::vector<SurfaceGroup> &groups, std::map<int, std::vector<
   }
 }
 
-Parents fragment(const CadModel &model, const FrameSpecification &specification, const GmshSession &session)
+/// Tags of what the operation made of a shape.
+std::vector<int> pieces_of(const TopoDS_Shape &shape, BRepAlgoAPI_BuilderAlgo &operation, const TaggedShapes &after)
 {
-  gmsh::vectorpair                first = {{3, model.solids[0].tag}}, rest, pieces;
-  std::vector<gmsh::vectorpair>   of_solid; // followed by those of every face of a group
-  const std::vector<SurfaceGroup> groups  = surface_groups();
-  const std::vector<int>          grouped = faces_of(groups);
-  for (std::size_t i = 1; i < model.solids.size(); ++i)
-    rest.emplace_back(3, model.solids[i].tag);
-  for (const int face : grouped)
-    rest.emplace_back(2, face);
+  TopTools_ListOfShape pieces = operation.Modified(shape);
+  if (pieces.IsEmpty() && !operation.IsDeleted(shape))
+    pieces.Append(shape);
+  std::vector<int> tags;
+  for (const TopoDS_Shape &piece : pieces)
+    if (after.tags.IsBound(piece))
+      tags.push_back(after.tags.Find(piece));
+  return tags;
+}
+
+/// The result of the operation; pieces have the labels of the first shape that they are part of.
+std::shared_ptr<CadShape> united_shape(const CadModel &model, const TaggedShapes &before,
+                                       BRepAlgoAPI_BuilderAlgo &operation)
+{
+  auto united = model.shape ? std::make_shared<CadShape>(*model.shape) : std::make_shared<CadShape>();
+  for (const auto *shapes : {&before.solids, &before.faces})
+    for (const auto &[tag, shape] : *shapes)
+      if (const auto label = united->labels.find(shape.TShape()); label != united->labels.end())
+        for (const TopoDS_Shape &piece : operation.Modified(shape))
+          united->labels.emplace(piece.TShape(), label->second);
+  united->whole = operation.Shape();
+  return united;
+}
+
+/// gmsh's own operation has no history of faces.
+Parents fragment(CadModel &model, const FrameSpecification &specification, const GmshSession &session)
+{
+  const std::vector<SurfaceGroup> groups = surface_groups();
+  TaggedShapes                    before, after;
+  BRepAlgoAPI_BuilderAlgo         operation;
   session.run(
       [&]
       {
-        gmsh::option::setNumber("Geometry.ToleranceBoolean", specification.mesh.gap / model.unit);
-        gmsh::model::occ::fragment(first, rest, pieces, of_solid);
-        gmsh::model::occ::synchronize();
-        gmsh::option::setNumber("Geometry.ToleranceBoolean", 0.);
+        before = tagged_shapes(model);
+        TopTools_ListOfShape solids;
+        gmsh::vectorpair     entities;
+        for (const Solid &solid : model.solids)
+        {
+          solids.Append(before.solids.at(solid.tag));
+          entities.emplace_back(3, solid.tag);
+        }
+        operation.SetArguments(solids);
+        if (specification.mesh.gap > 0.)
+          operation.SetFuzzyValue(specification.mesh.gap / model.unit);
+        operation.Build();
+        if (!operation.IsDone())
+          throw std::runtime_error("the Boolean operation fails");
+        model.shape = united_shape(model, before, operation);
+        gmsh::model::occ::remove(entities, /* recursive */ true);
+        give_to_gmsh(model.shape->whole, specification.mesh.gap / model.unit);
+        after = tagged_shapes(model);
       },
       head_of(specification) + ": OpenCASCADE cannot join its " + std::to_string(model.solids.size()) + " solids: ",
       "; unite them into one solid in the CAD program (boolean union).");
@@ -100,17 +132,21 @@ Parents fragment(const CadModel &model, const FrameSpecification &specification,
   Parents parents;
   for (std::size_t i = 0; i < model.solids.size(); ++i)
   {
-    if (of_solid.at(i).empty())
+    const std::vector<int> pieces = pieces_of(before.solids.at(model.solids[i].tag), operation, after);
+    if (pieces.empty())
       throw std::invalid_argument(specification.mesh.place + ": gap = " + text(specification.mesh.gap) +
                                   " m is larger than solid \"" + model.solids[i].name + "\" (" +
                                   text(model.solids[i].volume) + " m^3); use a smaller gap.");
-    for (const auto &[dim, tag] : of_solid[i])
+    for (const int tag : pieces)
       parents[tag].push_back(static_cast<int>(i));
   }
   std::map<int, std::vector<int>> pieces_of_face;
-  for (std::size_t i = 0; i < grouped.size(); ++i)
-    for (const auto &[dim, tag] : of_solid.at(model.solids.size() + i))
-      pieces_of_face[grouped[i]].push_back(tag);
+  for (const SurfaceGroup &group : groups)
+    for (const int face : group.faces)
+      if (const auto shape = before.faces.find(face); shape == before.faces.end())
+        pieces_of_face[face] = {face}; // of no solid
+      else
+        pieces_of_face[face] = pieces_of(shape->second, operation, after);
   restore(groups, pieces_of_face);
   return parents;
 }

@@ -103,9 +103,6 @@ private:
       result_.no_number    = word;
       result_.no_number_in = current_;
     }
-    result_.n_solids += word == "MANIFOLD_SOLID_BREP" || word == "BREP_WITH_VOIDS" || word == "FACETED_BREP";
-    result_.has_styles |=
-        word == "STYLED_ITEM" || word == "OVER_RIDING_STYLED_ITEM" || word == "PRESENTATION_LAYER_ASSIGNMENT";
   }
 
   const std::string                                   &text_;

@@ -17,8 +17,6 @@ struct StepText
   std::string   no_number;            ///< the first invalid number, such as NaN; "" for none
   std::uint64_t no_number_in = 0;     ///< its entity
   bool          has_unit     = false; ///< a unit of length, and a context it is assigned in
-  int           n_solids     = 0;     ///< solids, each counted once regardless of its placements
-  bool          has_styles   = false; ///< colours or layers
 };
 
 /// Reads the file once, outside of strings and comments; entities of any schema.

@@ -68,13 +68,40 @@ Selection select_all(CadModel &model, const FrameSpecification &specification)
   return selection;
 }
 
-/// Before the mesh, which may take long.
-void check_materials(const CadModel &model, const FrameSpecification &specification)
+/// Whose density counts, before the mesh, which may take long.
+void check_materials(CadModel &model, const FrameSpecification &specification)
 {
   std::vector<std::string> names;
   for (const Solid &solid : model.solids)
     names.push_back(solid.name);
-  check_solids_of_materials(specification, names);
+  const std::vector<Material>                     materials = materials_of(specification, names);
+  std::map<std::string, std::vector<std::string>> of_file, differ; // solids by text
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const Solid      &solid = model.solids[i];
+    const Material   &given = materials[i];
+    const std::string own =
+        text(solid.density) + " kg/m^3" + (solid.material.empty() ? "" : " (" + solid.material + ")");
+    if (given.E == 0.)
+      continue; // only the mesh is wanted
+    if (given.rho == 0. && solid.density == 0.)
+      throw std::invalid_argument((given.place.empty() ? specification.place : given.place) +
+                                  ": no density rho is given, and " + specification.cad + " has none for solid \"" +
+                                  solid.name + "\"; add one, such as rho = \"7850 kg/m^3\" of steel.");
+    constexpr double rounding = 1e-3; // of a density in a CAD file: three or four digits
+    if (given.rho == 0.)
+      of_file["the density is " + own + ", from the file"].push_back(solid.name);
+    else if (solid.density > 0. && std::abs(given.rho / solid.density - 1.) > rounding)
+      differ["the density is " + text(given.rho) + " kg/m^3, but " + own + " in the file"].push_back(solid.name);
+  }
+  const auto lines = [](const auto &solids_by_text, std::vector<std::string> &result)
+  {
+    for (const auto &[words, solids] : solids_by_text)
+      result.push_back("solid \"" + solids.front() + "\"" +
+                       (solids.size() > 1 ? " and " + std::to_string(solids.size() - 1) + " more" : "") + ": " + words);
+  };
+  lines(of_file, model.statements);
+  lines(differ, model.notes);
 }
 
 /// Sides of hexahedra and prisms are straight.
@@ -305,26 +332,17 @@ void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
   }
 }
 
-/// Colours and layers are read only if a surface is selected by name.
-FaceAttributes wanted_attributes(const FrameSpecification &specification)
-{
-  for (const auto &surface : specification.surfaces)
-    if (surface.second.group)
-      return FaceAttributes::read;
-  return FaceAttributes::left;
-}
-
 /// The model, with a note if its size is unlikely.
-CadModel read_model(const FrameSpecification &specification, const GmshSession &session, FaceAttributes attributes)
+CadModel read_model(const FrameSpecification &specification, const GmshSession &session)
 {
-  CadModel model = read_cad(specification, session, attributes);
+  CadModel model = read_cad(specification, session);
   if (const std::string note = suspect_size(model, source_of(specification)); !note.empty())
     model.notes.push_back(note);
   return model;
 }
 
-MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, FaceAttributes attributes,
-                       const ChildProgress &progress, const std::vector<SizePoint> &refined = {})
+MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, const ChildProgress &progress,
+                       const std::vector<SizePoint> &refined = {})
 {
   const GmshSession session;
   MeshedModel       result;
@@ -332,7 +350,7 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
     progress(mesh_phase::reading, -1.);
   const auto work = [&]
   {
-    result.model = read_model(specification, session, attributes);
+    result.model = read_model(specification, session);
     if (result.model.meshed)
       read_mesh(result, specification);
     else
@@ -340,6 +358,8 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
     require_thick_cells(result.extracted.mesh, result.model.meshed, head_of(specification));
     name_surfaces(result, specification);
     Mesh &mesh = result.extracted.mesh;
+    for (const Solid &solid : result.model.solids)
+      mesh.densities.push_back(solid.density);
     mesh.notes.insert(mesh.notes.begin(), result.model.notes.begin(), result.model.notes.end());
     mesh.statements.insert(mesh.statements.begin(), result.model.statements.begin(), result.model.statements.end());
   };
@@ -366,8 +386,7 @@ GeometryReport report_of(const MeshedModel &meshed)
 Mesh mesh_of_frame(const FrameSpecification &specification, const ChildProgress &progress,
                    const std::vector<SizePoint> &refined)
 {
-  return mesh_model(specification, MissingSize::refused, wanted_attributes(specification), progress, refined)
-      .extracted.mesh;
+  return mesh_model(specification, MissingSize::refused, progress, refined).extracted.mesh;
 }
 
 GeometryReport inspection_of_frame(const FrameSpecification &specification)
@@ -376,7 +395,7 @@ GeometryReport inspection_of_frame(const FrameSpecification &specification)
   MeshedModel       result;
   const auto        work = [&]
   {
-    result.model = read_model(specification, session, wanted_attributes(specification));
+    result.model = read_model(specification, session);
     if (result.model.meshed)
     {
       read_mesh(result, specification);
@@ -395,7 +414,7 @@ GeometryReport inspection_of_frame(const FrameSpecification &specification)
 
 GeometryReport report_of_frame(const FrameSpecification &specification, const ChildProgress &progress)
 {
-  MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, FaceAttributes::read, progress);
+  MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, progress);
   const Mesh    &mesh   = meshed.extracted.mesh;
   GeometryReport report = report_of(meshed);
   report.notes          = mesh.notes;

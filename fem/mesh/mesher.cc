@@ -11,10 +11,10 @@ namespace gestell::fem
 template <typename Archive>
 void exchange(Archive &archive, Mesh &mesh)
 {
-  auto &[points, cells, hexahedra, prisms, cell_solid, skin, skin_quads, solids, middles, takes_one_size, notes,
-         statements, surfaces] = mesh;
-  archive(points, cells, hexahedra, prisms, cell_solid, skin, skin_quads, solids, middles, takes_one_size, notes,
-          statements, surfaces);
+  auto &[points, cells, hexahedra, prisms, cell_solid, skin, skin_quads, solids, densities, middles, takes_one_size,
+         notes, statements, surfaces] = mesh;
+  archive(points, cells, hexahedra, prisms, cell_solid, skin, skin_quads, solids, densities, middles, takes_one_size,
+          notes, statements, surfaces);
 }
 
 template <typename Archive>
@@ -27,8 +27,8 @@ void exchange(Archive &archive, ExtractedMesh &extracted)
 template <typename Archive>
 void exchange(Archive &archive, Solid &solid)
 {
-  auto &[tag, name, volume, min, max, faces] = solid;
-  archive(tag, name, volume, min, max, faces);
+  auto &[tag, name, volume, min, max, faces, material, density] = solid;
+  archive(tag, name, volume, min, max, faces, material, density);
 }
 
 template <typename Archive>

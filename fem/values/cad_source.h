@@ -19,6 +19,7 @@ struct CadSource
   double      unit = 0.; ///< length unit of a file without one [m]; 0: from the file
   std::string place;     ///< prefix of messages
   Scripts     scripts = Scripts::harmless;
+  double      sew     = 0.; ///< [m] edges of open shells this far apart are joined; 0: none
 };
 
 } // namespace gestell::fem

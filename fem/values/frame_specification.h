@@ -47,7 +47,7 @@ struct Material
 {
   double      E   = 0.; ///< Young's modulus [Pa]
   double      nu  = 0.; ///< Poisson's ratio
-  double      rho = 0.; ///< density [kg/m^3]
+  double      rho = 0.; ///< density [kg/m^3]; 0: of the STEP file
   std::string place;
   std::string name{}; ///< "steel", for reports
 };
@@ -166,7 +166,8 @@ struct FrameSpecification
   std::vector<CutSpecification>          cuts;
   bool                                   stress  = false; ///< stress recovery is requested
   Scripts                                scripts = Scripts::harmless;
-  std::string                            place; ///< "press.toml:12: frame"
+  double                                 sew     = 0.; ///< [m], as in CadSource
+  std::string                            place;        ///< "press.toml:12: frame"
 };
 
 } // namespace gestell::fem

@@ -25,6 +25,7 @@ struct Mesh
   std::vector<std::array<int, 4>>
                            skin_quads; ///< outer quadrilaterals; i = abcd has the triangles 2 i = abc, 2 i + 1 = acd
   std::vector<std::string> solids;     ///< names, from the CAD file if it has them
+  std::vector<double>      densities;  ///< of the solids in a STEP file [kg/m^3], 0 for none
 
   /// For meshes of tetrahedra: middles of curved edges, by the points at their ends, the smaller first.
   std::map<std::array<int, 2>, Point3> middles;

@@ -111,7 +111,8 @@ fem::Material material_from(const SceneTable &any)
   if (material.nu <= -1. || material.nu >= 0.5)
     throw table.error("nu", "Poisson's ratio must lie above -1 and below 0.5; steel has 0.3");
   const bool E_plausible = check_plausible(table, "E", plausible_modulus(), material.E, 5e9, 5e11);
-  if (check_plausible(table, "rho", plausible_density(), material.rho, lightest_common, heaviest_common) && E_plausible)
+  if (table.has("rho") &&
+      check_plausible(table, "rho", plausible_density(), material.rho, lightest_common, heaviest_common) && E_plausible)
     check_speed_of_waves(table, material); // a second warning of one mistake otherwise
   return material;
 }
@@ -136,7 +137,10 @@ const std::vector<Key> &material_keys()
   static const std::vector<Key> keys = {
       key::number("E", kind::pressure, "Young's modulus").above_zero().into(&fem::Material::E),
       key::number("nu", kind::number, "Poisson's ratio, above -1 and below 0.5").into(&fem::Material::nu),
-      key::number("rho", kind::density, "density").above_zero().into(&fem::Material::rho)};
+      key::number("rho", kind::density, "density; a STEP file may contain it, which a line of the run then says")
+          .above_zero()
+          .into(&fem::Material::rho)
+          .by_default("of a frame: of its STEP file")};
   return keys;
 }
 
@@ -164,6 +168,14 @@ fem::Material read_material(const SceneTable &table, const SceneTable &scene, co
     names.push_back(entry.first);
   fem::Material material = known.at(table.choice(key, names, fallback));
   material.place         = table.place(key);
+  return material;
+}
+
+fem::Material read_weighed_material(const SceneTable &table, const SceneTable &scene)
+{
+  fem::Material material = read_material(table, scene);
+  if (material.rho == 0.)
+    throw table.error("material", "has no density; give rho, such as \"7850 kg/m^3\"");
   return material;
 }
 

@@ -18,6 +18,9 @@ namespace gestell::apps
 fem::Material read_material(const SceneTable &table, const SceneTable &scene, const std::string &key = "material",
                             const std::string &fallback = "steel");
 
+/// The same with a density, which only a frame may take from its STEP file.
+fem::Material read_weighed_material(const SceneTable &table, const SceneTable &scene);
+
 /// Keys of [material.NAME] and of a table in its place; `material` of a frame or a body.
 const std::vector<Key> &material_keys();
 Key                     material_key();

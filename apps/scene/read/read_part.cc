@@ -62,7 +62,7 @@ void check_keys(const SceneTable &table, coupling::BodyKind kind)
 double read_density(const SceneTable &table, const SceneTable &scene, double volume)
 {
   if (!table.has("mass"))
-    return table.has("density") ? read_plausible_density(table) : read_material(table, scene).rho;
+    return table.has("density") ? read_plausible_density(table) : read_weighed_material(table, scene).rho;
   const double mass = table.value("mass");
   warn_of_density(table, mass, volume);
   return mass / volume;

@@ -182,7 +182,6 @@ MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &pro
   report.cells          = kinds_of(geometry);
   report.size           = geometry.size;
   report.volume         = geometry.volume;
-  report.mass           = geometry.volume * frame.material.rho;
   report.worst_quality  = geometry.worst_quality;
   report.mean_quality   = geometry.mean_quality;
   report.expected_cells = geometry.expected_cells;
@@ -192,8 +191,17 @@ MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &pro
   report.features         = features_of(geometry);
   report.notes            = geometry.notes;
   report.statements       = geometry.statements;
+  constexpr double steel  = 7850.; // [kg/m^3] of structures; what is not steel is given
+  double           mass = 0., volume = 0.;
   for (const auto &solid : geometry.solids)
-    report.solids.push_back({solid.name, solid.volume, solid.volume * frame.material.rho, solid.min, solid.max});
+  {
+    const double density = frame.material.rho > 0. ? frame.material.rho : solid.density > 0. ? solid.density : steel;
+    report.solids.push_back(
+        {solid.name, solid.volume, solid.volume * density, solid.min, solid.max, density, solid.material});
+    mass += density * solid.volume;
+    volume += solid.volume;
+  }
+  report.mass     = volume > 0. ? mass / volume * geometry.volume : 0.;
   double diagonal = 0.;
   for (int d = 0; d < 3; ++d)
     diagonal = std::hypot(diagonal, geometry.max[d] - geometry.min[d]);

@@ -7,7 +7,8 @@
 namespace gestell::coupling
 {
 
-/// Meshes the file of a frame and returns the data for `gestell mesh`; masses are those of frame.material.
+/// Meshes the file of a frame and returns the data for `gestell mesh`; masses are those of
+/// frame.material, without one (rho = 0) those of the file, else of steel.
 MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &progress);
 
 } // namespace gestell::coupling

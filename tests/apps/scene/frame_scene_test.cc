@@ -85,6 +85,18 @@ TEST(SceneFrame, AMaterialNoSolidHasIsTakenWithItsUnitAndWarnedOf)
       << scene.warnings[0];
 }
 
+TEST(SceneFrame, RepairIsADistanceAndADensityMayBeThatOfTheFile)
+{
+  const auto frame = [](const std::string &more)
+  { return scene_of(cad_scene("[frame]\n", "[frame]\n" + more + '\n')).frame.geometry; };
+  EXPECT_EQ(frame("").sew, 0.);
+  EXPECT_DOUBLE_EQ(frame("repair = \"sew\"").sew, 5e-5);
+  EXPECT_DOUBLE_EQ(frame("repair = { sew = \"0.2 mm\" }").sew, 2e-4);
+  EXPECT_THAT(complaint(cad_scene("[frame]\n", "[frame]\nrepair = \"heal\"\n")),
+              ::testing::HasSubstr("there is no 'heal'; valid: 'sew'"));
+  EXPECT_EQ(frame("materials = { \"crown\" = { E = \"210 GPa\", nu = 0.3 } }").materials.at(0).second.rho, 0.);
+}
+
 TEST(Scene, OfNothingIsRefusedWhenItIsBuilt)
 {
   tests::expect_refusal([] { apps::build_machine(scene_of("name = \"x\"\n")); },

@@ -79,6 +79,13 @@ const std::vector<Key> &frame_keys()
       key::number("unit", kind::length, "length unit of a file that has none, `\"1 mm\"`")
           .above_zero()
           .by_default("of the file"),
+      key::table("repair",
+                 {key::number("sew", kind::length, "the largest distance of edges that are joined").above_zero()},
+                 "`\"sew\"` joins the edges of an open shell in a STEP or BREP file where they are at most 0.05 mm "
+                 "apart, `{ sew = \"0.2 mm\" }` another distance, less than a third of the thinnest wall; a line says "
+                 "what was sewn")
+          .also({Key::Form::text})
+          .by_default("none"),
       key::map("dimensions", kind::length, {},
                "of a script (`.geo`): lengths and numbers in place of those that it assigns, `{ web_plate = \"70 mm\" "
                "}` for its "

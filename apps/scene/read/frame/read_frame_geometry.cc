@@ -274,6 +274,17 @@ fem::AttachedMass read_mass(const SceneTable &any, const fem::FrameSpecification
   return mass;
 }
 
+/// Largest distance of edges to be joined [m].
+double read_sewing(const SceneTable &frame)
+{
+  if (!frame.has("repair"))
+    return 0.;
+  constexpr double usual = 5e-5; // CAD programs sew within 0.01 to 0.1 mm
+  if (!frame.is_table("repair"))
+    return frame.choice("repair", {"sew"}, "sew"), usual;
+  return frame.table("repair").value("sew");
+}
+
 } // namespace
 
 fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const SceneTable &scene)
@@ -288,6 +299,7 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
     throw frame.error("cad", "a file ending in '" + ending + "' cannot be read; valid: " + listed(endings));
   specification.unit      = frame.value_or("unit", 0.);
+  specification.sew       = read_sewing(frame);
   specification.cad       = with_dimensions(frame, specification.cad, specification.unit);
   specification.material  = read_material(frame, scene);
   specification.materials = read_solid_materials(frame, scene);

@@ -211,7 +211,7 @@ coupling::BoltedJoint read_bolts(const SceneTable &table)
 coupling::TieRod read_rod(const SceneTable &table, const SceneTable &scene)
 {
   coupling::TieRod    rod;
-  const fem::Material material = read_material(table, scene);
+  const fem::Material material = read_weighed_material(table, scene);
   rod.E                        = material.E;
   rod.rho                      = material.rho;
   rod.material                 = material.name;
