@@ -175,7 +175,7 @@ public:
   void add(const fem::FrameSpecification &value)
   {
     const auto &[cad, unit, mesh, material, materials, ratios, rayleigh_mass, rayleigh_stiffness, surfaces, supports,
-                 interfaces, masses, cuts, stress, scripts, place] = value;
+                 interfaces, masses, cuts, stress, parts, scripts, place] = value;
     add_sources(cad);
     add("unit", unit);
     add("mesh", mesh);
@@ -190,6 +190,7 @@ public:
     add("mass", masses);
     add("cut", cuts);
     add("stress", stress);
+    add("parts", parts);
   }
 
   template <typename Number, int rows, int columns>
