@@ -50,7 +50,8 @@ private:
   std::vector<int> leader_;
 };
 
-/// Cells that a common coordinate of tied nodes moves are one group.
+/// Cells that a common coordinate of tied nodes moves are one group, except by the nodes of interfaces and masses:
+/// these may belong to several parts.
 std::vector<idx_t> groups_of_cells(const QuadraticMesh &mesh, const AffineConstraints &affine)
 {
   CellGroups       groups(mesh.n_cells());
@@ -69,6 +70,8 @@ std::vector<idx_t> groups_of_cells(const QuadraticMesh &mesh, const AffineConstr
         if (affine.coordinate(i) < 0)
           for (const auto &[coordinate, weight] : affine.row(i))
           {
+            if (coordinate >= affine.first_of_nodes())
+              continue;
             first[node] = cell;
             if (moved[coordinate] >= 0)
               groups.unite(cell, moved[coordinate]);
@@ -100,8 +103,9 @@ Graph graph_of(const QuadraticMesh &mesh, const std::vector<idx_t> &group)
   }
   idx_t  n_cells = mesh.n_cells(), n_nodes = mesh.n_nodes(), of_a_face = 3, from_zero = 0;
   idx_t *first = nullptr, *neighbour = nullptr;
-  require_metis(METIS_MeshToDual(&n_cells, &n_nodes, begin.data(), corners.data(), &of_a_face, &from_zero, &first, &neighbour));
-  const auto                                     release = [](idx_t *p) { METIS_Free(p); };
+  require_metis(
+      METIS_MeshToDual(&n_cells, &n_nodes, begin.data(), corners.data(), &of_a_face, &from_zero, &first, &neighbour));
+  const auto                                      release = [](idx_t *p) { METIS_Free(p); };
   const std::unique_ptr<idx_t, decltype(release)> keep_first(first, release), keep_neighbour(neighbour, release);
 
   const idx_t                   n_groups = *std::max_element(group.begin(), group.end()) + 1;
@@ -134,9 +138,12 @@ std::vector<idx_t> divided(Graph &graph, idx_t n_parts)
   std::vector<idx_t> part(n);
   idx_t              options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1; // the same parts in every run
-  require_metis(METIS_PartGraphRecursive(&n, &n_constraints, graph.begin.data(), graph.to.data(), graph.weight.data(), nullptr,
-                                 graph.edge_weight.data(), &n_parts, nullptr, nullptr, options, &cut, part.data()));
+  options[METIS_OPTION_SEED]  = 1; // the same parts in every run
+  options[METIS_OPTION_NCUTS] = 4; // of which the best is taken
+  constexpr idx_t few         = 8; // parts, for which bisection cuts fewer faces
+  require_metis((n_parts > few ? METIS_PartGraphKway : METIS_PartGraphRecursive)(
+      &n, &n_constraints, graph.begin.data(), graph.to.data(), graph.weight.data(), nullptr, graph.edge_weight.data(),
+      &n_parts, nullptr, nullptr, options, &cut, part.data()));
   return part;
 }
 
@@ -174,7 +181,10 @@ Piece piece_of(const QuadraticMesh &mesh, const CellMaterials &materials, const 
   {
     const int *nodes = mesh.nodes(cell);
     const auto add   = [&](auto &list)
-    { std::transform(nodes, nodes + mesh.n_nodes_of(cell), list.emplace_back().begin(), [&](int i) { return number[i]; }); };
+    {
+      std::transform(nodes, nodes + mesh.n_nodes_of(cell), list.emplace_back().begin(),
+                     [&](int i) { return number[i]; });
+    };
     if (!mesh.curved.empty() && mesh.kind(cell) == CellKind::tetrahedron)
       piece.mesh.curved.push_back(mesh.curved[cell]);
     if (mesh.kind(cell) == CellKind::tetrahedron)
@@ -204,9 +214,9 @@ CellParts::CellParts(const QuadraticMesh &mesh, const CellMaterials &materials, 
     cells_[part[group[cell]]].push_back(cell);
   if (std::any_of(cells_.begin(), cells_.end(), [](const auto &cells) { return cells.empty(); }))
     throw std::invalid_argument(place + ": parts = " + std::to_string(n_parts) + ", but the frame has only " +
-                                std::to_string(mesh.n_cells()) + " cells, " + std::to_string(n_groups) +
-                                " where the cells at each interface and mass count as one; use fewer parts, or "
-                                "parts = \"auto\"");
+                                std::to_string(mesh.n_cells()) + " cells, up to " +
+                                std::to_string(*std::max_element(graph.weight.begin(), graph.weight.end())) +
+                                " of which stay together at an averaged surface; use fewer parts, or parts = \"auto\"");
 }
 
 std::vector<int> CellParts::coordinates(int part) const
@@ -216,10 +226,10 @@ std::vector<int> CellParts::coordinates(int part) const
 
 PartMatrices CellParts::matrices(int part) const
 {
-  const Piece             piece = piece_of(mesh_, materials_, cells_[part]);
+  const Piece              piece = piece_of(mesh_, materials_, cells_[part]);
   AffineConstraints::Lists lists = affine_.of_nodes(piece.nodes);
-  const AffineConstraints affine(lists);
-  PartMatrices            result;
+  const AffineConstraints  affine(lists);
+  PartMatrices             result;
   result.C           = affine.project(assemble_stiffness(piece.mesh, piece.materials));
   result.M           = affine.project(assemble_mass(piece.mesh, piece.materials));
   result.coordinates = std::move(lists.coordinates);

@@ -49,7 +49,7 @@ AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &mate
   const Eigen::Vector3d middle = middle_of_nodes(mesh);
   AssembledMatrices     sums;
   sums.C.resize(affine.n_coordinates(), affine.n_coordinates());
-  sums.M         = sums.C;
+  sums.M            = sums.C;
   sums.rigid_energy = FrameFacts().rigid_energy;
   // Each full matrix goes as soon as it is projected: two of them at once would set the peak of the memory.
   if (of == CellSums::of_frame)
@@ -64,8 +64,8 @@ AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &mate
   const NodalMasses masses = nodal_masses(mesh, M, middle);
   if (of == CellSums::of_frame)
     sums.M = affine.project(M);
-  sums.whole               = mass_integrals(mesh, masses, middle);
-  sums.nodal_mass          = masses.mass;
+  sums.whole      = mass_integrals(mesh, masses, middle);
+  sums.nodal_mass = masses.mass;
   return sums;
 }
 

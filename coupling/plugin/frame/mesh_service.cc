@@ -169,8 +169,8 @@ public:
     const fem::CellParts parts          = parts_of(discretisation, mesh, frame);
     if (parts.size() == 1)
       return coupling::assemble(mesh, frame, options, progress).reduced;
-    ReducedModel reduced = reduce_in_parts(discretisation.matrices, parts, frame.rayleigh_mass,
-                                           frame.rayleigh_stiffness, options, frame.place, progress);
+    ReducedModel reduced      = reduce_in_parts(discretisation.matrices, parts, frame.rayleigh_mass,
+                                                frame.rayleigh_stiffness, options, frame.place, progress);
     discretisation.matrices.C = fem::SparseMatrix();
     add_mesh_statement(reduced, discretisation, mesh, progress);
     return std::move(reduced.frame);

@@ -114,7 +114,8 @@ MatrixXd condensed(const FrontSelection &all, const PartOfFrame &part, const Spa
                           for (Index i = j; i < r; ++i)
                             S(rows[i] - n2, rows[j] - n2) += contribution[i + j * r];
                       }};
-  const int    failed = multifrontal_cholesky(fronts, {C, &X, -sigma, {}, 1.}, [](int, const double *) {}, border);
+  const int failed = multifrontal_cholesky(
+      fronts, {C, &X, -sigma, {}, 1.}, [](int, const double *) {}, border);
   if (failed >= 0)
     throw NotPositiveDefinite(failed);
   const std::vector<int> place = places_of(part.held, C.rows());
@@ -130,24 +131,28 @@ MatrixXd condensed(const FrontSelection &all, const PartOfFrame &part, const Spa
   return S;
 }
 
-/// C12 X, that is rows "1" of C X for X without motion of the interface.
-MatrixXd at_interface(const Sparse &C, const MatrixXd &X, const std::vector<int> &held)
+/// Columns of a matrix at the interface [n_p x n1].
+Sparse columns_of(const Sparse &A, const std::vector<int> &held)
 {
-  MatrixXd result = MatrixXd::Zero(Index(held.size()), X.cols());
+  Sparse result(A.rows(), Index(held.size()));
   for (std::size_t k = 0; k < held.size(); ++k)
-    for (Sparse::InnerIterator c(C, held[k]); c; ++c)
-      result.row(Index(k)) += c.value() * X.row(c.row());
+  {
+    result.startVec(Index(k));
+    for (Sparse::InnerIterator a(A, held[k]); a; ++a)
+      result.insertBack(a.row(), Index(k)) = a.value();
+  }
+  result.finalize();
   return result;
 }
 
 /// Psi^T D V and V^T D V below each other, [(n1+m) x m].
-MatrixXd damping_of_modes(const PartOfFrame &part, const SparseCholesky &factor, const MatrixXd &V)
+MatrixXd damping_of_modes(const PartOfFrame &part, const SparseCholesky &factor, const Sparse &C_1, const MatrixXd &V)
 {
   MatrixXd load = part.damping * V, result(Index(part.held.size()) + V.cols(), V.cols());
   result << load(part.held, Eigen::all), V.transpose() * load;
   hold(load, part.held);
   factor.solve_in_place(load);
-  result.topRows(Index(part.held.size())) -= at_interface(part.sums.C, load, part.held);
+  result.topRows(Index(part.held.size())) -= C_1.transpose() * load;
   return result;
 }
 
@@ -178,50 +183,54 @@ int modes_below(const PartOfFrame &part, double omega)
       .negative;
 }
 
-CondensedPart condense(const PartOfFrame &part, int n_modes)
+CondensedPart condense(PartOfFrame part, int n_modes)
 {
-  const Sparse &C = part.sums.C, &M = part.sums.M;
-  const Index   n1 = Index(part.held.size());
-  CondensedPart result;
+  const Sparse  &C = part.sums.C, &M = part.sums.M;
+  const Index    n1    = Index(part.held.size());
+  const bool     whole = contains(C, M) && contains(C, part.damping);
+  const Sparse   C_1   = columns_of(C, part.held);
+  CondensedPart  result;
   SparseCholesky factor = factor_of(part);
   {
-    BlockLanczos search(M, std::make_shared<InverseByFactor>(factor, part.held), {});
+    part.sums.C = fem::SparseMatrix();
+    BlockLanczos::Options options;
+    options.room = 2 * n_modes + 4 * options.block; // little memory: it restarts two or three times
+    BlockLanczos search(M, std::make_shared<InverseByFactor>(factor, part.held), options);
     search.find(n_modes);
     LowestModes modes = search.modes(n_modes);
     result.V          = std::move(modes.V);
     result.omega      = std::move(modes.omega);
   }
   const VectorXd square = result.omega.cwiseAbs2();
-  result.M_1V           = at_interface(M, result.V, part.held) -
-                at_interface(C, result.V, part.held) * square.cwiseInverse().asDiagonal();
+  result.M_1V           = columns_of(M, part.held).transpose() * result.V;
+  result.M_1V -= (C_1.transpose() * result.V) * square.cwiseInverse().asDiagonal();
 
   MatrixXd deflection = part.load;
   hold(deflection, part.held);
   result.load.resize(n1 + n_modes, part.load.cols());
   result.load.bottomRows(n_modes) = result.V.transpose() * deflection;
   factor.solve_in_place(deflection);
-  result.load.topRows(n1) = -at_interface(C, deflection, part.held);
+  result.load.topRows(n1) = -(C_1.transpose() * deflection);
   const bool damped       = part.damping.nonZeros() > 0;
   double     tau          = 0.;
   MatrixXd   of_modes;
   if (damped)
   {
     constexpr double second_order = 1e-4; // of D*: the relative error of its difference
-    of_modes = damping_of_modes(part, factor, result.V);
-    tau      = second_order / std::max(largest_against_stiffness(part, factor), 1e-300);
+    of_modes                      = damping_of_modes(part, factor, C_1, result.V);
+    tau                           = second_order / std::max(largest_against_stiffness(part, factor), 1e-300);
   }
   factor.release();
+  part.sums.C = part.stiffness();
 
   // Rounding of S counts omega_mesh^2 / sigma times in M*: 1e-7 with this share of the square of the highest mode.
-  constexpr double share       = 1e-4;
-  result.sigma                 = share * square[n_modes - 1];
-  const bool           whole   = contains(C, M) && contains(C, part.damping);
-  const Sparse         pattern = whole ? Sparse() : Sparse(Sparse(C + M) + part.damping);
-  const SparseCholesky analysis =
-      whole ? std::move(factor) : SparseCholesky::without_numbers(pattern, part.held);
-  const FrontSelection all = with_border(analysis.fronts(), whole ? C : pattern, part.held);
-  result.C                 = condensed(all, part, M, 0.);
-  const auto derivative    = [&](const Sparse &X, double step)
+  constexpr double share        = 1e-4;
+  result.sigma                  = share * square[n_modes - 1];
+  const Sparse         pattern  = whole ? Sparse() : Sparse(Sparse(C + M) + part.damping);
+  const SparseCholesky analysis = whole ? std::move(factor) : SparseCholesky::without_numbers(pattern, part.held);
+  const FrontSelection all      = with_border(analysis.fronts(), whole ? C : pattern, part.held);
+  result.C                      = condensed(all, part, M, 0.);
+  const auto derivative         = [&](const Sparse &X, double step)
   {
     MatrixXd S = condensed(all, part, X, step);
     S -= result.C;
@@ -234,39 +243,39 @@ CondensedPart condense(const PartOfFrame &part, int n_modes)
   if (damped)
   {
     result.damping.resize(n1 + n_modes, n1 + n_modes);
-    result.damping.rightCols(n_modes) = of_modes;
-    result.damping.topLeftCorner(n1, n1) = derivative(part.damping, tau).selfadjointView<Eigen::Lower>();
+    result.damping.rightCols(n_modes)            = of_modes;
+    result.damping.topLeftCorner(n1, n1)         = derivative(part.damping, tau).selfadjointView<Eigen::Lower>();
     result.damping.bottomLeftCorner(n_modes, n1) = of_modes.topRows(n1).transpose();
   }
   return result;
 }
 
-RecoveredPart recover(const PartOfFrame &part, const CondensedPart &condensed, const MatrixXd &X,
-                      const MatrixXd &beyond, const MatrixXd &modes)
+RecoveredPart recover(PartOfFrame part, const CondensedPart &condensed, const MatrixXd &X, const MatrixXd &beyond,
+                      const MatrixXd &modes)
 {
-  const Sparse        &C = part.sums.C, &M = part.sums.M;
-  const Index          n1 = Index(part.held.size()), m = condensed.omega.size(), k = X.cols();
-  const SparseCholesky factor      = factor_of(part);
-  const VectorXd       flexibility = condensed.omega.cwiseAbs2().cwiseInverse();
-  const auto           psi         = [&](const auto &q1) // Psi q_1
+  const Sparse        &M = part.sums.M, C_1 = columns_of(part.sums.C, part.held);
+  const Index          n1 = Index(part.held.size()), n = M.rows(), m = condensed.omega.size(), k = X.cols();
+  const SparseCholesky factor = factor_of(part);
+  part.sums.C                 = fem::SparseMatrix();
+  const VectorXd flexibility  = condensed.omega.cwiseAbs2().cwiseInverse();
+  const auto     psi          = [&](const auto &q1) // Psi q_1
   {
-    MatrixXd held = MatrixXd::Zero(C.rows(), q1.cols()), U;
-    held(part.held, Eigen::all) = q1;
-    symmetric_product(C, held, U);
+    MatrixXd U = C_1 * -q1;
     hold(U, part.held);
     factor.solve_in_place(U);
-    return MatrixXd(held - U);
+    U(part.held, Eigen::all) = q1;
+    return U;
   };
 
   RecoveredPart result;
-  result.T.resize(C.rows(), k);
-  MatrixXd moved = MatrixXd::Zero(C.rows(), modes.cols()); // Psi q_1 of the modes
-  constexpr Index together = 16;                           // right-hand sides
+  result.T.resize(n, k);
+  MatrixXd        moved    = MatrixXd::Zero(n, modes.cols()); // Psi q_1 of the modes
+  constexpr Index together = 16;                              // right-hand sides
   for (Index first = 0; first < k; first += together)
   {
-    const Index    count                = std::min(together, k - first);
-    const MatrixXd U                    = psi(X.block(0, first, n1, count));
-    result.T.middleCols(first, count)   = U + condensed.V * X.block(n1, first, m, count);
+    const Index    count              = std::min(together, k - first);
+    const MatrixXd U                  = psi(X.block(0, first, n1, count));
+    result.T.middleCols(first, count) = U + condensed.V * X.block(n1, first, m, count);
     moved += U * modes.middleRows(first, count);
   }
   MatrixXd inertia;
@@ -275,7 +284,8 @@ RecoveredPart recover(const PartOfFrame &part, const CondensedPart &condensed, c
   moved = inertia;
   factor.solve_in_place(moved);
   const MatrixXd of_modes = condensed.V.transpose() * inertia;
-  result.left_out = inertia.cwiseProduct(moved).colwise().sum() - (flexibility.asDiagonal() * of_modes.cwiseAbs2()).colwise().sum();
+  result.left_out =
+      inertia.cwiseProduct(moved).colwise().sum() - (flexibility.asDiagonal() * of_modes.cwiseAbs2()).colwise().sum();
 
   result.beyond = psi(beyond.topRows(n1)) + condensed.V * beyond.bottomRows(m);
   if (beyond.cols() == 0)

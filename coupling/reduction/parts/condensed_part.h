@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct PartOfFrame
   Eigen::MatrixXd   load; // [n_p x 3] of a unit acceleration
   std::vector<int>  held; ///< interface: coordinates of other parts or of the mechanism, ascending
   std::string       name; ///< "part 2 of 3", for messages
+  /// Assembles sums.C again, which makes room for other memory meanwhile.
+  std::function<fem::SparseMatrix()> stiffness;
 };
 
 /**
@@ -34,12 +37,12 @@ struct PartOfFrame
  */
 struct CondensedPart
 {
-  Eigen::MatrixXd C, M;    // [n1 x n1], lower triangles: Psi^T C Psi, Psi^T M Psi
-  Eigen::MatrixXd M_1V;    // [n1 x m]  Psi^T M V, column j is m_j
-  Eigen::MatrixXd damping; // [(n1+m) x (n1+m)] of PartOfFrame::damping, or empty: none
-  Eigen::MatrixXd load;    // [(n1+m) x 3] of the interior
-  Eigen::MatrixXd V;       // [n_p x m], V^T M V = E, zero at the interface
-  Eigen::VectorXd omega;   // [m] rad/s, ascending
+  Eigen::MatrixXd C, M;       // [n1 x n1], lower triangles: Psi^T C Psi, Psi^T M Psi
+  Eigen::MatrixXd M_1V;       // [n1 x m]  Psi^T M V, column j is m_j
+  Eigen::MatrixXd damping;    // [(n1+m) x (n1+m)] of PartOfFrame::damping, or empty: none
+  Eigen::MatrixXd load;       // [(n1+m) x 3] of the interior
+  Eigen::MatrixXd V;          // [n_p x m], V^T M V = E, zero at the interface
+  Eigen::VectorXd omega;      // [m] rad/s, ascending
   double          sigma = 0.; // [1/s^2]
 };
 
@@ -47,7 +50,7 @@ struct CondensedPart
 int modes_below(const PartOfFrame &part, double omega);
 
 /// @throws std::invalid_argument if the part moves freely with its interface fixed; ConvergenceFailure.
-CondensedPart condense(const PartOfFrame &part, int n_modes);
+CondensedPart condense(PartOfFrame part, int n_modes);
 
 /// Fields of a part that follow from those of the joined frame.
 struct RecoveredPart
@@ -60,7 +63,7 @@ struct RecoveredPart
 /// @param X       [(n1+m) x k] columns of the joined frame in the coordinates of the part.
 /// @param beyond  [(n1+m) x 3] the same of the static deflection outside the basis.
 /// @param modes   [k x p] modes of the frame in its reduced coordinates.
-RecoveredPart recover(const PartOfFrame &part, const CondensedPart &condensed, const Eigen::MatrixXd &X,
+RecoveredPart recover(PartOfFrame part, const CondensedPart &condensed, const Eigen::MatrixXd &X,
                       const Eigen::MatrixXd &beyond, const Eigen::MatrixXd &modes);
 
 } // namespace gestell::coupling

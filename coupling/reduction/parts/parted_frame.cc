@@ -23,8 +23,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr int least_modes = 40; // of a part: its fixed-interface modes lie above as many of the frame
-
 /// A cut frame and the parts of its matrices.
 class CutFrame
 {
@@ -46,18 +44,25 @@ public:
   PartOfFrame part(int p) const
   {
     PartOfFrame part;
-    part.sums = parts_.matrices(p);
-    part.name = name(p);
-    for (const auto &[own, of_frame] : {std::pair(&part.sums.C, &frame_.C), std::pair(&part.sums.M, &frame_.M)})
-      if (of_frame->nonZeros() > 0)
-        *own = Sparse(*own + interface_.share(*of_frame, p, part.sums.coordinates));
-    part.damping = interface_.share(damping_, p, part.sums.coordinates);
-    part.held    = interface_.held(part.sums.coordinates);
-    part.load    = frame_.acceleration_load(part.sums.coordinates, Eigen::all);
+    part.sums      = sums(p);
+    part.stiffness = [this, p] { return std::move(sums(p).C); };
+    part.name      = name(p);
+    part.damping   = interface_.share(damping_, p, part.sums.coordinates);
+    part.held      = interface_.held(part.sums.coordinates);
+    part.load      = frame_.acceleration_load(part.sums.coordinates, Eigen::all);
     return part;
   }
 
 private:
+  fem::PartMatrices sums(int p) const
+  {
+    fem::PartMatrices sums = parts_.matrices(p);
+    for (const auto &[own, of_frame] : {std::pair(&sums.C, &frame_.C), std::pair(&sums.M, &frame_.M)})
+      if (of_frame->nonZeros() > 0)
+        *own = Sparse(*own + interface_.share(*of_frame, p, sums.coordinates));
+    return sums;
+  }
+
   const fem::FrameMatrices &frame_;
   const fem::CellParts     &parts_;
   PartInterface             interface_;
@@ -67,7 +72,8 @@ private:
 /// Modes to retain of every part: at least as many as of the frame, and those below twice the frequency of interest.
 std::vector<int> numbers_of_modes(const CutFrame &cut, const ReductionOptions &options)
 {
-  constexpr double reach = 2.;
+  constexpr double reach       = 2.;
+  constexpr int    least_modes = 40; // the fixed-interface modes of a part lie above as many of the frame
   std::vector<int> numbers;
   for (int p = 0; p < cut.size(); ++p)
   {
@@ -86,7 +92,7 @@ fem::FrameMatrices on_interface(const fem::FrameMatrices &frame, const PartInter
   const auto        &rows  = interface.coordinates();
   const auto         taken = [&](const MatrixXd &of)
   {
-    MatrixXd result                  = MatrixXd::Zero(n, of.cols());
+    MatrixXd result                    = MatrixXd::Zero(n, of.cols());
     result.topRows(Index(rows.size())) = of(rows, Eigen::all);
     return result;
   };
@@ -132,9 +138,9 @@ Joined join(const CutFrame &cut, const fem::FrameMatrices &frame, double alpha, 
   {
     if (progress)
       progress(cut.name(p), double(p) / cut.size());
-    const PartOfFrame part      = cut.part(p);
-    CondensedPart     condensed = condense(part, numbers[p]);
-    const auto        places    = interface.places(part, joined.modes[p], numbers[p]);
+    PartOfFrame   part      = cut.part(p);
+    const auto    places    = interface.places(part, joined.modes[p], numbers[p]);
+    CondensedPart condensed = condense(std::move(part), numbers[p]);
     sums.add(condensed, places);
     joined.matrices.acceleration_load(places, Eigen::all) += condensed.load;
     condensed.C.resize(0, 0);
@@ -156,17 +162,19 @@ Recovered recover_all(const CutFrame &cut, const Joined &joined, const ReducedMo
                       Index n, const Progress &progress)
 {
   const MatrixXd &T = reduced.basis.T, &beyond = reduced.beyond;
-  Recovered all{MatrixXd::Zero(n, T.cols()), MatrixXd::Zero(n, beyond.cols()), {}};
+  Recovered       all{MatrixXd::Zero(n, T.cols()), MatrixXd::Zero(n, beyond.cols()), {}};
   for (int p = 0; p < cut.size(); ++p)
   {
     if (progress)
       progress("fields of " + cut.name(p), double(p) / cut.size());
-    const PartOfFrame part = cut.part(p);
-    const auto places      = cut.interface().places(part, joined.modes[p], int(joined.parts[p].omega.size()));
-    RecoveredPart of       = recover(part, joined.parts[p], T(places, Eigen::all), beyond(places, Eigen::all), modes);
-    all.T(part.sums.coordinates, Eigen::all) = of.T;
+    PartOfFrame            part        = cut.part(p);
+    const std::vector<int> coordinates = part.sums.coordinates;
+    const auto             places = cut.interface().places(part, joined.modes[p], int(joined.parts[p].omega.size()));
+    RecoveredPart          of =
+        recover(std::move(part), joined.parts[p], T(places, Eigen::all), beyond(places, Eigen::all), modes);
+    all.T(coordinates, Eigen::all) = of.T;
     if (beyond.cols() > 0)
-      all.beyond(part.sums.coordinates, Eigen::all) = of.beyond;
+      all.beyond(coordinates, Eigen::all) = of.beyond;
     all.left_out.push_back(std::move(of.left_out));
   }
   return all;
@@ -199,9 +207,9 @@ std::string statement_of(const DenseModes &modes, const Joined &joined, const Re
     worst = std::max(worst, error);
     known = modes.omega[j] / two_pi;
   }
-  std::string text = "parts: " + std::to_string(joined.parts.size()) + " parts with " +
-                     std::to_string(interface.size()) + " interface coordinates; their reduction makes frequencies up to " +
-                     rounded(known) + " Hz too high by ";
+  std::string text =
+      "parts: " + std::to_string(joined.parts.size()) + " parts with " + std::to_string(interface.size()) +
+      " interface coordinates; their reduction makes frequencies up to " + rounded(known) + " Hz too high by ";
   return text + (std::isfinite(worst) ? percent(worst, 2) + " at most (first-order bound)"
                                       : "an unknown amount: use [reduction] frequency to retain more modes of parts");
 }
@@ -242,10 +250,10 @@ ReducedModel reduce_in_parts(const fem::FrameMatrices &frame, const fem::CellPar
     throw std::invalid_argument(place + ": parts = " + std::to_string(parts.size()) + " leaves " +
                                 std::to_string(n - n1) + " DOFs within the parts and makes " + std::to_string(n1) +
                                 " interface DOFs between them; use fewer parts, or parts = \"auto\"");
-  const Joined joined    = join(cut, frame, alpha, beta, options, progress);
-  ReducedModel reduced   = reduce_with_basis(joined.matrices, options, progress);
-  const DenseModes modes = modes_of_interest(reduced.frame);
-  Recovered    recovered = recover_all(cut, joined, reduced, modes.V, n, progress);
+  const Joined     joined    = join(cut, frame, alpha, beta, options, progress);
+  ReducedModel     reduced   = reduce_with_basis(joined.matrices, options, progress);
+  const DenseModes modes     = modes_of_interest(reduced.frame);
+  Recovered        recovered = recover_all(cut, joined, reduced, modes.V, n, progress);
   reduced.frame.statements.push_back(statement_of(modes, joined, recovered, cut.interface()));
   return completed(std::move(reduced), frame, std::move(recovered));
 }

@@ -54,10 +54,10 @@ std::vector<Frame> frames()
 {
   const std::array<int, 3>    n{{24, 2, 2}};
   const std::array<double, 3> size{{2., 0.2, 0.1}};
-  const auto rigid = fem::InterfaceCoupling::rigid, average = fem::InterfaceCoupling::average;
-  const auto clamp = clamped("foot", {"x0"});
-  Frame      damped = beam("on dampers", box_mesh(n, size, 0.2), average,
-                           foundation("foot", {"x0"}, {{2e8, 3e8, 4e8}}, {{1e5, 2e5, 1e5}}));
+  const auto                  rigid = fem::InterfaceCoupling::rigid, average = fem::InterfaceCoupling::average;
+  const auto                  clamp       = clamped("foot", {"x0"});
+  Frame                       damped      = beam("on dampers", box_mesh(n, size, 0.2), average,
+                                                 foundation("foot", {"x0"}, {{2e8, 3e8, 4e8}}, {{1e5, 2e5, 1e5}}));
   damped.specification.rayleigh_mass      = 3.;
   damped.specification.rayleigh_stiffness = 1e-5;
   return {beam("clamped", box_mesh(n, size, 0.2), rigid, clamp),
@@ -109,8 +109,7 @@ TEST(FrameInParts, HasTheFrequenciesStaticsAndOutputsOfTheWhole)
     for (const int n_parts : {2, 3, 5})
     {
       SCOPED_TRACE(frame.name + ", parts: " + std::to_string(n_parts));
-      const ReducedFrame whole =
-          coupling::reduce_frame(fem::discretise(frame.mesh, frame.specification), options);
+      const ReducedFrame whole = coupling::reduce_frame(fem::discretise(frame.mesh, frame.specification), options);
       const ReducedFrame parts = reduced_in_parts(frame, n_parts, options);
       ASSERT_EQ(parts.M.rows(), whole.M.rows());
       EXPECT_EQ(parts.n_full, whole.n_full);
@@ -162,7 +161,8 @@ TEST(FrameInParts, RefusesMorePartsThanMakeSense)
   const Frame frame = frames().front();
   expect_refusal([&] { reduced_in_parts(frame, 40); }, "interface DOFs between them; use fewer parts");
   const fem::Discretisation of = fem::discretise_for_parts(frame.mesh, frame.specification);
-  expect_refusal([&] { of.mesh_error->parts(100000, "scene.toml:2: frame"); }, "scene.toml:2: frame: parts = 100000, but the frame has only 576 cells");
+  expect_refusal([&] { of.mesh_error->parts(100000, "scene.toml:2: frame"); },
+                 "scene.toml:2: frame: parts = 100000, but the frame has only 576 cells");
 }
 
 } // namespace

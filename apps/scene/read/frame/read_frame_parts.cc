@@ -16,11 +16,9 @@ namespace gestell::apps
 namespace
 {
 
-/// Without those of a whole frame.
 std::vector<Key> without_reduced(std::vector<Key> keys)
 {
-  keys.erase(std::remove_if(keys.begin(), keys.end(),
-                            [](const Key &key) { return key.name == "reduced" || key.name == "parts"; }),
+  keys.erase(std::remove_if(keys.begin(), keys.end(), [](const Key &key) { return key.name == "reduced"; }),
              keys.end());
   for (Key &key : keys)
     if (key.name == "cad")
