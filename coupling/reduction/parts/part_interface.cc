@@ -1,5 +1,7 @@
 #include "coupling/reduction/parts/part_interface.h"
 
+#include "fem/values/available_memory.h"
+
 #include <algorithm>
 #include <map>
 #include <stdexcept>
@@ -121,10 +123,12 @@ JoinedSums::JoinedSums(const PartInterface &interface, const std::vector<int> &f
     count += double(rows_of(parts_of_column[j]).size());
     C_.outerIndexPtr()[j + 1] = int(std::min(count, 2147483647.));
   }
+  const std::string what          = "parts: " + std::to_string(interface.size()) + " interface DOFs between the parts",
+                    advice        = "Use fewer parts; bulky bodies need less memory in one piece (parts = 1).";
+  constexpr double bytes_of_entry = 40.; // C and M with row numbers, their factor and its work space
+  fem::require_available(what, bytes_of_entry * count, advice);
   if (count > 2147483646.)
-    throw std::invalid_argument("parts: " + std::to_string(interface.size()) +
-                                " interface coordinates between the parts are too many; use fewer parts, or a "
-                                "coarser mesh");
+    throw std::invalid_argument(what + " have more than 2^31 entries in their matrices. " + advice);
   C_.resizeNonZeros(Index(count));
   for (int j = 0; j < n; ++j)
   {

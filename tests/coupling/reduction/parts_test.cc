@@ -17,7 +17,7 @@ namespace
 using coupling::ReducedFrame;
 using Eigen::MatrixXd;
 
-struct Frame
+struct CutCase
 {
   std::string             name;
   fem::Mesh               mesh;
@@ -25,9 +25,9 @@ struct Frame
 };
 
 /// A beam with a node at its end, a mass beside it and a plane through it.
-Frame beam(const std::string &name, fem::Mesh mesh, fem::InterfaceCoupling coupling, const fem::Support &foot)
+CutCase loaded_beam(const std::string &name, fem::Mesh mesh, fem::InterfaceCoupling coupling, const fem::Support &foot)
 {
-  Frame frame{name, std::move(mesh), free_steel()};
+  CutCase frame{name, std::move(mesh), free_steel()};
   frame.specification.supports   = {foot};
   frame.specification.interfaces = {interface("end", {"x1"}, coupling)};
   frame.specification.masses     = {{"motor", 40., Eigen::Matrix3d::Identity(), {}, "end", {}, {}, ""}};
@@ -37,7 +37,7 @@ Frame beam(const std::string &name, fem::Mesh mesh, fem::InterfaceCoupling coupl
   return frame;
 }
 
-Frame turned(Frame frame)
+CutCase turned_case(CutCase frame)
 {
   const Eigen::Matrix3d Q    = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1., 2., -0.5).normalized()).matrix();
   const auto            turn = [&](std::array<double, 3> &x, const Eigen::Vector3d &by)
@@ -50,22 +50,22 @@ Frame turned(Frame frame)
   return frame;
 }
 
-std::vector<Frame> frames()
+std::vector<CutCase> cut_cases()
 {
   const std::array<int, 3>    n{{24, 2, 2}};
   const std::array<double, 3> size{{2., 0.2, 0.1}};
   const auto                  rigid = fem::InterfaceCoupling::rigid, average = fem::InterfaceCoupling::average;
   const auto                  clamp       = clamped("foot", {"x0"});
-  Frame                       damped      = beam("on dampers", box_mesh(n, size, 0.2), average,
-                                                 foundation("foot", {"x0"}, {{2e8, 3e8, 4e8}}, {{1e5, 2e5, 1e5}}));
+  CutCase                     damped      = loaded_beam("on dampers", box_mesh(n, size, 0.2), average,
+                                                        foundation("foot", {"x0"}, {{2e8, 3e8, 4e8}}, {{1e5, 2e5, 1e5}}));
   damped.specification.rayleigh_mass      = 3.;
   damped.specification.rayleigh_stiffness = 1e-5;
-  return {beam("clamped", box_mesh(n, size, 0.2), rigid, clamp),
-          turned(beam("turned", box_mesh(n, size, 0.2), rigid, clamp)),
-          beam("of bricks", brick_mesh(n, size), average, clamp), std::move(damped)};
+  return {loaded_beam("clamped", box_mesh(n, size, 0.2), rigid, clamp),
+          turned_case(loaded_beam("turned", box_mesh(n, size, 0.2), rigid, clamp)),
+          loaded_beam("of bricks", brick_mesh(n, size), average, clamp), std::move(damped)};
 }
 
-ReducedFrame reduced_in_parts(const Frame &frame, int n_parts, const coupling::ReductionOptions &options = {})
+ReducedFrame reduced_in_parts(const CutCase &frame, int n_parts, const coupling::ReductionOptions &options = {})
 {
   const fem::Discretisation of = fem::discretise_for_parts(frame.mesh, frame.specification);
   return reduce_in_parts(of.matrices, of.mesh_error->parts(n_parts, frame.specification.place),
@@ -74,7 +74,7 @@ ReducedFrame reduced_in_parts(const Frame &frame, int n_parts, const coupling::R
       .frame;
 }
 
-const fem::FrameOutput &output_of(const ReducedFrame &frame, const std::string &name)
+const fem::FrameOutput &output_named(const ReducedFrame &frame, const std::string &name)
 {
   return *std::find_if(frame.outputs.begin(), frame.outputs.end(),
                        [&](const fem::FrameOutput &output) { return output.name == name; });
@@ -82,7 +82,7 @@ const fem::FrameOutput &output_of(const ReducedFrame &frame, const std::string &
 
 TEST(CellParts, AddUpToTheWhole)
 {
-  for (const Frame &frame : frames())
+  for (const CutCase &frame : cut_cases())
   {
     SCOPED_TRACE(frame.name);
     const fem::FrameMatrices  whole = fem::discretise(frame.mesh, frame.specification);
@@ -105,7 +105,7 @@ TEST(FrameInParts, HasTheFrequenciesStaticsAndOutputsOfTheWhole)
 {
   coupling::ReductionOptions options;
   options.n_modes = 20;
-  for (const Frame &frame : frames())
+  for (const CutCase &frame : cut_cases())
     for (const int n_parts : {2, 3, 5})
     {
       SCOPED_TRACE(frame.name + ", parts: " + std::to_string(n_parts));
@@ -129,7 +129,7 @@ TEST(FrameInParts, HasTheFrequenciesStaticsAndOutputsOfTheWhole)
       {
         const auto force = [&](const ReducedFrame &of)
         {
-          const fem::FrameOutput &output = output_of(of, name);
+          const fem::FrameOutput &output = output_named(of, name);
           return output.on_q.dot(of.C.ldlt().solve(of.translations_load * g)) + output.under_acceleration.dot(g);
         };
         EXPECT_NEAR(force(parts), force(whole), 1e-6 * std::abs(force(whole))) << name;
@@ -144,7 +144,7 @@ TEST(FrameInParts, HasTheFrequenciesStaticsAndOutputsOfTheWhole)
 
 TEST(FrameInParts, FloatsAsTheWholeDoes)
 {
-  Frame frame = frames().front();
+  CutCase frame = cut_cases().front();
   frame.specification.supports.clear();
   coupling::ReductionOptions options;
   options.n_modes          = 12;
@@ -158,7 +158,7 @@ TEST(FrameInParts, FloatsAsTheWholeDoes)
 
 TEST(FrameInParts, RefusesMorePartsThanMakeSense)
 {
-  const Frame frame = frames().front();
+  const CutCase frame = cut_cases().front();
   expect_refusal([&] { reduced_in_parts(frame, 40); }, "interface DOFs between them; use fewer parts");
   const fem::Discretisation of = fem::discretise_for_parts(frame.mesh, frame.specification);
   expect_refusal([&] { of.mesh_error->parts(100000, "scene.toml:2: frame"); },
