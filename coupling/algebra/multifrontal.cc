@@ -124,8 +124,9 @@ private:
 class Elimination : Fall
 {
 public:
-  Elimination(const Fronts &fronts, const HeldMatrix &A)
-      : Fall(fronts), A_(A), place_of_(A.C.rows(), -1), local_(fronts.n), stack_(stack_size()), panel_(panel_size())
+  Elimination(const Fronts &fronts, const HeldMatrix &A, const Border &border)
+      : Fall(fronts), A_(A), border_(border), place_of_(A.C.rows(), -1), local_(fronts.n), stack_(stack_size()),
+        panel_(panel_size())
   {
     for (int k = 0; k < fronts.n; ++k)
       place_of_[fronts.order[k]] = k;
@@ -136,6 +137,8 @@ public:
   {
     for (int s = 0; s < fronts_.count; ++s)
     {
+      if (take_given(s))
+        continue;
       assemble(s, panel_.data());
       int       info = 0;
       const int h = height(s), w = width(s);
@@ -155,6 +158,8 @@ public:
     growth_.assign(fronts_.n, 0.);
     for (int s = 0; s < fronts_.count; ++s)
     {
+      if (take_given(s))
+        continue;
       const int h = height(s), w = width(s);
       assemble(s, panel_.data());
       int info = 0;
@@ -189,6 +194,17 @@ private:
   {
     for (int j = 0; j < w; ++j)
       std::copy_n(from + ptrdiff_t(j) * from_height + j, w - j, to + ptrdiff_t(j) * to_height + j);
+  }
+
+  /// @returns false if the front has columns of its own.
+  bool take_given(int s)
+  {
+    if (width(s) > 0)
+      return false;
+    contribution_ = waiting_.empty() ? stack_.data() : waiting_.back().end;
+    border_.given(s, contribution_);
+    waiting_.push_back({s, contribution_, contribution_ + contribution_size(s)});
+    return true;
   }
 
   /// Entries of A in the columns of a front, and what earlier fronts pass on to it.
@@ -287,6 +303,8 @@ private:
     }
     if (r == 0)
       return;
+    if (parent(s) < 0)
+      return border_.left(s, contribution_);
     if (to != contribution_)
       for (ptrdiff_t j = 0; j < r; ++j)
         std::memmove(to + j * r + j, contribution_ + j * r + j, sizeof(double) * (r - j));
@@ -359,6 +377,7 @@ private:
   }
 
   const HeldMatrix    &A_;
+  const Border        &border_;
   std::vector<int>     place_of_, local_;
   LargeArray           stack_, panel_;
   Division             divide_;
@@ -372,9 +391,9 @@ private:
 } // namespace
 
 int multifrontal_cholesky(const Fronts &fronts, const HeldMatrix &A,
-                          const std::function<void(int, const double *)> &take)
+                          const std::function<void(int, const double *)> &take, const Border &border)
 {
-  return Elimination(fronts, A).cholesky(take);
+  return Elimination(fronts, A, border).cholesky(take);
 }
 
 ptrdiff_t multifrontal_workspace(const Fronts &fronts)
@@ -383,9 +402,9 @@ ptrdiff_t multifrontal_workspace(const Fronts &fronts)
   return fall.stack_size() + fall.panel_size();
 }
 
-Inertia multifrontal_inertia(const Fronts &fronts, const HeldMatrix &A)
+Inertia multifrontal_inertia(const Fronts &fronts, const HeldMatrix &A, const Border &border)
 {
-  return Elimination(fronts, A).inertia();
+  return Elimination(fronts, A, border).inertia();
 }
 
 } // namespace gestell::coupling

@@ -175,7 +175,7 @@ public:
   void add(const fem::FrameSpecification &value)
   {
     const auto &[cad, unit, mesh, material, materials, ratios, rayleigh_mass, rayleigh_stiffness, surfaces, supports,
-                 interfaces, masses, cuts, stress, scripts, sew, place] = value;
+                 interfaces, masses, cuts, stress, parts, scripts, sew, place] = value;
     add_sources(cad);
     add("unit", unit);
     add("mesh", mesh);
@@ -191,6 +191,7 @@ public:
     add("cut", cuts);
     add("stress", stress);
     add("sew", sew);
+    add("parts", parts);
   }
 
   template <typename Number, int rows, int columns>

@@ -106,7 +106,7 @@ ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionO
     space.star = reduced_matrices(space.basis, frame.B, frame.C);
   }
   auto [frequencies, damped, limit] = estimate(space, space.star, completed, options);
-  const StaticRemainder remainder   = static_remainder(statics.response.loads, space.basis, statics.load);
+  StaticRemainder remainder         = static_remainder(statics.response.loads, space.basis, statics.load);
 
   ReducedFrame reduced = project(frame, space.basis, std::move(space.star), damped, statics.load, remainder.deflection);
   reduced.n_fixed_modes      = n_fixed;
@@ -117,7 +117,7 @@ ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionO
   reduced.static_residual    = remainder.relative;
   name_free_motions(reduced, frame, space.basis.q1);
   add_texts(reduced, frame, space);
-  return {std::move(reduced), std::move(space.basis), options.factor};
+  return {std::move(reduced), std::move(space.basis), std::move(remainder.deflection), options.factor};
 }
 
 ReducedFrame reduce_frame(const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress)

@@ -12,9 +12,10 @@ namespace gestell::coupling
 /// The frame in the coordinates p of q = T p, and T itself.
 struct ReducedModel
 {
-  ReducedFrame   frame;
-  ReductionBasis basis;
-  std::string    factor; ///< of the reduction, see make_factor()
+  ReducedFrame    frame;
+  ReductionBasis  basis;
+  Eigen::MatrixXd beyond; // [n x 3] deflection under a unit acceleration that is missing in the basis, or [n x 0]
+  std::string     factor; ///< of the reduction, see make_factor()
 };
 
 /**

@@ -31,6 +31,7 @@ AffineConstraints::AffineConstraints(const MultipointConstraints &constraints)
     new_column_[k] = n_coordinates_++;
   for (int k = 0; k < constraints.n_interface_coordinates; ++k)
     new_column_[k] = n_coordinates_++;
+  n_of_nodes_ = constraints.n_interface_coordinates;
 
   std::vector<Eigen::Triplet<double>> entries;
   const std::vector<Combination>      ties = closed_ties(constraints.held, constraints.tie_of, constraints.ties);

@@ -60,6 +60,8 @@ public:
   Lists of_nodes(const std::vector<int> &nodes) const;
 
   int n_coordinates() const { return n_coordinates_; }
+  /// The last coordinates are those of the nodes of interfaces and masses.
+  int first_of_nodes() const { return n_coordinates_ - n_of_nodes_; }
   int n_displacements() const { return static_cast<int>(column_.size()); }
 
   /// Index in q of a value as numbered in MultipointConstraints, or -1 if it is fixed or tied.
@@ -82,7 +84,7 @@ private:
   std::vector<int>                             tied_row_;   // [3 n_nodes] row of G_t or -1
   std::vector<int>                             tied_;       // displacement of every row of G_t
   Eigen::SparseMatrix<double, Eigen::RowMajor> G_t_;        // rows of the tied displacements
-  int                                          n_free_ = 0, n_coordinates_ = 0;
+  int                                          n_free_ = 0, n_coordinates_ = 0, n_of_nodes_ = 0;
 };
 
 } // namespace gestell::fem

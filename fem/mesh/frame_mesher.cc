@@ -157,6 +157,8 @@ void judge_memory(MeshedModel &result, const FrameSpecification &specification, 
 {
   const auto sizes       = resolve_surface_sizes(options, result.selection);
   result.expected_cells  = expected_cells(result.model, options.size, sizes, result.selection);
+  if (specification.parts != 1)
+    return; // the parts are judged when the mesh is cut
   const double available = available_memory();
   const double kappa     = compactness(result.model.volume(), skin_area(result.model.faces));
   const double averaged  = expected_averaged(result, specification, sizes, options.size);
@@ -177,6 +179,8 @@ void judge_memory(MeshedModel &result, const FrameSpecification &specification, 
 /// The same of a mesh that is read.
 void judge_memory(const MeshedModel &result, const FrameSpecification &specification)
 {
+  if (specification.parts != 1)
+    return;
   const Mesh  &mesh     = result.extracted.mesh;
   const double n        = 3. * number_of_nodes(mesh);
   double       averaged = 0.;

@@ -36,11 +36,23 @@ struct AssembledMatrices
   MassProperties  whole;
 };
 
-AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine)
+/// Whose sums over cells are made.
+enum class CellSums
+{
+  of_frame,
+  of_parts ///< C and M remain zero: CellParts makes them part by part
+};
+
+AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
+                            CellSums of)
 {
   const Eigen::Vector3d middle = middle_of_nodes(mesh);
   AssembledMatrices     sums;
+  sums.C.resize(affine.n_coordinates(), affine.n_coordinates());
+  sums.M            = sums.C;
+  sums.rigid_energy = FrameFacts().rigid_energy;
   // Each full matrix goes as soon as it is projected: two of them at once would set the peak of the memory.
+  if (of == CellSums::of_frame)
   {
     std::vector<int> nodes(mesh.n_nodes());
     std::iota(nodes.begin(), nodes.end(), 0);
@@ -50,9 +62,10 @@ AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &mate
   }
   const BlockMatrix M      = assemble_mass(mesh, materials);
   const NodalMasses masses = nodal_masses(mesh, M, middle);
-  sums.M                   = affine.project(M);
-  sums.whole               = mass_integrals(mesh, masses, middle);
-  sums.nodal_mass          = masses.mass;
+  if (of == CellSums::of_frame)
+    sums.M = affine.project(M);
+  sums.whole      = mass_integrals(mesh, masses, middle);
+  sums.nodal_mass = masses.mass;
   return sums;
 }
 
@@ -188,7 +201,7 @@ void add_support_forces(const Ingredients &of, const BlockMatrix &C, const Eigen
 }
 
 /// M, B, C and what is read off them.
-void add_matrices(const Ingredients &of, FrameMatrices &frame)
+void add_matrices(const Ingredients &of, CellSums cells, FrameMatrices &frame)
 {
   const auto &[specification, mesh, materials, supports, affine, nodes] = of;
   const auto foundations                                                = [&](Vector3 Support::*totals)
@@ -196,7 +209,7 @@ void add_matrices(const Ingredients &of, FrameMatrices &frame)
   const Eigen::SparseMatrix<double> C_beside = foundations(&Support::stiffness);
   const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, affine.n_coordinates());
 
-  AssembledMatrices sums   = sum_cells(mesh, materials, affine);
+  AssembledMatrices sums   = sum_cells(mesh, materials, affine, cells);
   frame.C                  = std::move(sums.C);
   frame.M                  = std::move(sums.M);
   frame.facts.rigid_energy = sums.rigid_energy;
@@ -246,14 +259,7 @@ RigidNodes rigid_nodes(const std::vector<SupportedPatch> &supports, const std::v
   return rigid;
 }
 
-} // namespace
-
-FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification)
-{
-  return discretise_with_mesh_error(mesh, specification).matrices;
-}
-
-Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification)
+Discretisation discretise(const Mesh &mesh, const FrameSpecification &specification, CellSums cells)
 {
   const CellMaterials               materials = cell_materials(mesh, specification);
   const QuadraticMesh               quadratic = quadratic_mesh(mesh);
@@ -281,7 +287,7 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   for (const CutSpecification &cut : specification.cuts)
     frame.outputs.push_back(cut_force(cut, quadratic, materials, affine, specification.rayleigh_stiffness));
 
-  add_matrices({specification, quadratic, materials, supports, affine, nodes}, frame);
+  add_matrices({specification, quadratic, materials, supports, affine, nodes}, cells, frame);
 
   frame.rigid_motions = rigid_coordinates(quadratic, frame.facts.whole.centre, constraints, affine, nodes);
   frame.translations  = frame.rigid_motions.leftCols(3);
@@ -291,6 +297,23 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
         quadratic, [&](int cell) -> const Material & { return materials[cell]; }, affine,
         rigid_nodes(supports, coupled));
   return {std::move(frame), std::make_shared<const MeshError>(quadratic, materials, affine)};
+}
+
+} // namespace
+
+FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification)
+{
+  return discretise_with_mesh_error(mesh, specification).matrices;
+}
+
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification)
+{
+  return discretise(mesh, specification, CellSums::of_frame);
+}
+
+Discretisation discretise_for_parts(const Mesh &mesh, const FrameSpecification &specification)
+{
+  return discretise(mesh, specification, CellSums::of_parts);
 }
 
 } // namespace gestell::fem

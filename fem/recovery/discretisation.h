@@ -35,4 +35,8 @@ struct Discretisation
 };
 Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification);
 
+/// The same without the sums over cells, which MeshError::parts() makes part by part: M, B and C are those of attached
+/// masses and of foundations.
+Discretisation discretise_for_parts(const Mesh &mesh, const FrameSpecification &specification);
+
 } // namespace gestell::fem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/assembly/affine_constraints.h"
+#include "fem/assembly/cell_parts.h"
 #include "fem/assembly/cell_materials.h"
 #include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/raised_degree.h"
@@ -44,6 +45,9 @@ public:
   {
     return raise_degree(mesh_, materials_, affine_, frame.C, frame.M);
   }
+
+  /// The cells of the frame in parts; refers to this object.
+  CellParts parts(int number, const std::string &place) const { return {mesh_, materials_, affine_, number, place}; }
 
   const QuadraticMesh &mesh() const { return mesh_; }
 

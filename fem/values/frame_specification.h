@@ -165,6 +165,7 @@ struct FrameSpecification
   std::vector<AttachedMass>              masses;
   std::vector<CutSpecification>          cuts;
   bool                                   stress  = false; ///< stress recovery is requested
+  int                                    parts   = 1;     ///< that the mesh is cut into; 0: chosen by their memory
   Scripts                                scripts = Scripts::harmless;
   double                                 sew     = 0.; ///< [m], as in CadSource
   std::string                            place;        ///< "press.toml:12: frame"

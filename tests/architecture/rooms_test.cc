@@ -34,7 +34,7 @@ const std::vector<std::vector<std::string>> directions = {
      "coupling/integration/stability"},
     {"coupling/integration", "coupling/frame", "coupling/algebra", "coupling/eigensolvers", "coupling/factors",
      "coupling/reduction/shapes", "coupling/reduction/estimates", "coupling/reduction/methods", "coupling/reduction",
-     "coupling/plugin/frame"},
+     "coupling/reduction/parts", "coupling/plugin/frame"},
     {"coupling/integration", "coupling/frame", "coupling/exchange", "coupling/algebra", "coupling/machine",
      "coupling/equilibrium", "coupling/modes", "coupling/simulation", "coupling/sensitivity"},
     {"apps/scene/language", "apps/scene/file", "apps/scene/read", "apps/scene/bodies", "apps/scene/elements",

@@ -3,8 +3,11 @@
 #include "coupling/algebra/openblas.h"
 #include "coupling/plugin/frame/converge_mesh.h"
 #include "coupling/plugin/frame/mesh_statement.h"
+#include "coupling/reduction/parts/parted_frame.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/assembly/attached_masses.h"
+#include "fem/mesh/curved_sides.h"
+#include "fem/mesh/memory_estimate.h"
 #include "fem/mesh/mesher.h"
 #include "fem/recovery/raised_matrices.h"
 #include "fem/values/number_text.h"
@@ -68,6 +71,59 @@ bool takes_faces(const fem::InterfaceSpecification &interface)
   return interface.coupling != fem::InterfaceCoupling::point && interface.coupling != fem::InterfaceCoupling::node;
 }
 
+double skin_of(const fem::Mesh &mesh)
+{
+  using fem::operator-;
+  double     area = 0.;
+  for (const auto &[a, b, c] : mesh.skin)
+    area += 0.5 * fem::norm(fem::cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a]));
+  return area;
+}
+
+/// The number of parts with the least memory, 1 included, or the one given.
+fem::CellParts parts_of(const fem::Discretisation &discretisation, const fem::Mesh &mesh,
+                        const fem::FrameSpecification &frame)
+{
+  const fem::MeshError &cells = *discretisation.mesh_error;
+  if (frame.parts > 0)
+    return cells.parts(frame.parts, frame.place);
+  const double kappa = fem::compactness(fem::curved_volume(mesh), skin_of(mesh));
+  int          best  = 1;
+  double       least = fem::reduction_memory(double(discretisation.matrices.M.rows()), kappa);
+  for (const int number : {2, 3, 4, 6, 8, 12})
+  {
+    if (number > mesh.n_cells())
+      break;
+    const double memory = memory_of_parts(cells.parts(number, frame.place), discretisation.matrices, kappa);
+    if (memory < least)
+    {
+      least = memory;
+      best  = number;
+    }
+    else if (memory > 2. * least)
+      break; // the interface outgrows the parts
+  }
+  return cells.parts(best, frame.place);
+}
+
+void add_mesh_statement(ReducedModel &reduced, const fem::Discretisation &of, const fem::Mesh &mesh,
+                        const Progress &progress)
+{
+  if (progress)
+    progress("mesh error", -1.);
+  auto [text, warns] = mesh_statement(reduced, of.matrices, *of.mesh_error, mesh);
+  (warns ? reduced.frame.notes : reduced.frame.statements).push_back(std::move(text));
+}
+
+MeshService::Unreduced assemble(const fem::Mesh &mesh, const fem::FrameSpecification &frame,
+                                const ReductionOptions &options, const Progress &progress)
+{
+  fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame);
+  ReducedModel        reduced        = reduce_with_basis(discretisation.matrices, options, progress);
+  add_mesh_statement(reduced, discretisation, mesh, progress);
+  return {std::move(discretisation.matrices), std::move(reduced.frame)};
+}
+
 class PluginMeshService final : public MeshService
 {
 public:
@@ -103,7 +159,21 @@ public:
   ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
                       const Progress &progress) override
   {
-    return assemble(frame, options, progress).reduced;
+    if (frame.parts == 1)
+      return assemble(frame, options, progress).reduced;
+    use_one_blas_thread();
+    const fem::Mesh mesh = fem::make_mesh(frame, progress);
+    if (progress)
+      progress("assembly", -1.);
+    fem::Discretisation  discretisation = fem::discretise_for_parts(mesh, frame);
+    const fem::CellParts parts          = parts_of(discretisation, mesh, frame);
+    if (parts.size() == 1)
+      return coupling::assemble(mesh, frame, options, progress).reduced;
+    ReducedModel reduced      = reduce_in_parts(discretisation.matrices, parts, frame.rayleigh_mass,
+                                                frame.rayleigh_stiffness, options, frame.place, progress);
+    discretisation.matrices.C = fem::SparseMatrix();
+    add_mesh_statement(reduced, discretisation, mesh, progress);
+    return std::move(reduced.frame);
   }
 
   Unreduced assemble(const fem::FrameSpecification &frame, const ReductionOptions &options,
@@ -113,13 +183,7 @@ public:
     const fem::Mesh mesh = fem::make_mesh(frame, progress);
     if (progress)
       progress("assembly", -1.);
-    fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame);
-    ReducedModel        reduced        = reduce_with_basis(discretisation.matrices, options, progress);
-    if (progress)
-      progress("mesh error", -1.);
-    auto [text, warns] = mesh_statement(reduced, discretisation.matrices, *discretisation.mesh_error, mesh);
-    (warns ? reduced.frame.notes : reduced.frame.statements).push_back(std::move(text));
-    return {std::move(discretisation.matrices), std::move(reduced.frame)};
+    return coupling::assemble(mesh, frame, options, progress);
   }
 
   ReducedFrame reduce_raised(const fem::FrameSpecification &frame, const ReductionOptions &options,

@@ -52,6 +52,8 @@ Eigen::VectorXd by_stresses(const Modes &modes, const ReducedModel &reduced, con
 Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const fem::FrameMatrices &frame,
                           const fem::MeshError &mesh_error, bool thin_walls)
 {
+  if (frame.C.nonZeros() == 0)
+    return {}; // of a frame in parts, whose matrices are not kept
   const double n         = fem::raised_coordinates(mesh_error.mesh(), double(frame.M.rows())),
                available = fem::available_memory();
   // Largest numbers of coordinates of degree three for which the comparison is worth two to three and a half times the

@@ -285,6 +285,18 @@ double read_sewing(const SceneTable &frame)
   return frame.table("repair").value("sew");
 }
 
+/// Number of parts, 0 for "auto".
+int read_number_of_parts(const SceneTable &frame)
+{
+  if (frame.is_text("parts"))
+    return frame.choice("parts", {"auto"}, "auto"), 0;
+  const int     number = frame.whole("parts");
+  constexpr int most   = 64; // that are joined at once
+  if (number < 1 || number > most)
+    throw frame.error("parts", "needs a number from 1 to " + std::to_string(most) + ", or \"auto\"");
+  return number;
+}
+
 } // namespace
 
 fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const SceneTable &scene)
@@ -300,6 +312,8 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
     throw frame.error("cad", "a file ending in '" + ending + "' cannot be read; valid: " + listed(endings));
   specification.unit      = frame.value_or("unit", 0.);
   specification.sew       = read_sewing(frame);
+  if (frame.has("parts"))
+    specification.parts = read_number_of_parts(frame);
   specification.cad       = with_dimensions(frame, specification.cad, specification.unit);
   specification.material  = read_material(frame, scene);
   specification.materials = read_solid_materials(frame, scene);

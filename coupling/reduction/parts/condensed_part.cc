@@ -1,0 +1,301 @@
+#include "coupling/reduction/parts/condensed_part.h"
+
+#include "coupling/algebra/multifrontal.h"
+#include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/eigensolvers/block_lanczos.h"
+#include "coupling/reduction/shapes/reduction_basis.h"
+#include "fem/values/available_memory.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Sparse = Eigen::SparseMatrix<double>;
+
+SparseCholesky factor_of(const PartOfFrame &part)
+{
+  try
+  {
+    return {part.sums.C, part.held, fem::available_memory()};
+  }
+  catch (const NotPositiveDefinite &)
+  {
+    throw std::invalid_argument("parts: " + part.name +
+                                " moves freely although its interface is fixed; a frame of unconnected bodies "
+                                "without supports cannot be cut. Leave out 'parts'");
+  }
+}
+
+/// Rows of the interface, -1 elsewhere.
+std::vector<int> places_of(const std::vector<int> &held, Index n)
+{
+  std::vector<int> place(n, -1);
+  for (std::size_t k = 0; k < held.size(); ++k)
+    place[held[k]] = int(k);
+  return place;
+}
+
+void hold(MatrixXd &X, const std::vector<int> &held)
+{
+  for (const int i : held)
+    X.row(i).setZero();
+}
+
+/// The fronts of the interior with the coordinates held as rows below: what they pass on condenses A to these.
+FrontSelection with_border(const Fronts &inner, const Sparse &pattern, const std::vector<int> &held)
+{
+  const std::vector<int> border = places_of(held, inner.n);
+  const int              n2     = inner.n - int(held.size());
+  std::vector<int>       place(inner.n, -1), front_of(inner.n, -1);
+  FrontSelection         all;
+  for (int k = 0; k < inner.n; ++k)
+    if (border[inner.order[k]] < 0)
+    {
+      place[k] = int(all.order.size());
+      all.order.push_back(inner.order[k]);
+    }
+  all.order.insert(all.order.end(), held.begin(), held.end());
+  for (int s = 0; s < inner.count; ++s)
+    std::fill(front_of.begin() + inner.first[s], front_of.begin() + inner.first[s + 1], s);
+
+  std::vector<std::vector<int>> passed(inner.count); // rows of the interface from fronts before
+  for (int s = 0; s < inner.count; ++s)
+  {
+    if (border[inner.order[inner.first[s]]] >= 0)
+      continue; // alone, as all of its couplings are removed
+    std::vector<int> rows = std::move(passed[s]);
+    for (int k = inner.first[s]; k < inner.first[s + 1]; ++k)
+      for (Sparse::InnerIterator a(pattern, inner.order[k]); a; ++a)
+        if (border[a.row()] >= 0)
+          rows.push_back(n2 + border[a.row()]);
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    for (int k = inner.begin[s]; k < inner.begin[s + 1]; ++k)
+      all.rows.push_back(place[inner.rows[k]]);
+    all.rows.insert(all.rows.end(), rows.begin(), rows.end());
+    const int width = inner.first[s + 1] - inner.first[s];
+    all.first.push_back(all.first.back() + width);
+    all.begin.push_back(int(all.rows.size()));
+    if (inner.begin[s + 1] - inner.begin[s] > width)
+    {
+      std::vector<int> &to = passed[front_of[inner.rows[inner.begin[s] + width]]];
+      to.insert(to.end(), rows.begin(), rows.end());
+    }
+  }
+  return all;
+}
+
+/// S = A11 - A12 A22^-1 A21 of A = C + sigma X, lower triangle.
+MatrixXd condensed(const FrontSelection &all, const PartOfFrame &part, const Sparse &X, double sigma)
+{
+  const Sparse &C      = part.sums.C;
+  const Index   n1     = Index(part.held.size());
+  const Fronts  fronts = all.fronts();
+  const int     n2     = fronts.n - int(n1);
+  fem::require_available("parts: " + part.name + " with " + std::to_string(n1) + " interface coordinates",
+                         sizeof(double) * (double(multifrontal_workspace(fronts)) + double(n1) * double(n1)),
+                         "Use fewer parts, or a coarser mesh.");
+  MatrixXd     S = MatrixXd::Zero(n1, n1);
+  const Border border{{},
+                      [&](int s, const double *contribution)
+                      {
+                        const int  *rows = fronts.rows + fronts.begin[s] + (fronts.first[s + 1] - fronts.first[s]);
+                        const Index r    = fronts.rows + fronts.begin[s + 1] - rows;
+                        for (Index j = 0; j < r; ++j)
+                          for (Index i = j; i < r; ++i)
+                            S(rows[i] - n2, rows[j] - n2) += contribution[i + j * r];
+                      }};
+  const int failed = multifrontal_cholesky(
+      fronts, {C, &X, -sigma, {}, 1.}, [](int, const double *) {}, border);
+  if (failed >= 0)
+    throw NotPositiveDefinite(failed);
+  const std::vector<int> place = places_of(part.held, C.rows());
+  const auto             add   = [&](const Sparse &A, double factor)
+  {
+    for (Index k = 0; k < n1; ++k)
+      for (Sparse::InnerIterator a(A, part.held[k]); a; ++a)
+        if (place[a.row()] >= k)
+          S(place[a.row()], k) += factor * a.value();
+  };
+  add(C, 1.);
+  add(X, sigma);
+  return S;
+}
+
+/// Columns of a matrix at the interface [n_p x n1].
+Sparse columns_of(const Sparse &A, const std::vector<int> &held)
+{
+  Sparse result(A.rows(), Index(held.size()));
+  for (std::size_t k = 0; k < held.size(); ++k)
+  {
+    result.startVec(Index(k));
+    for (Sparse::InnerIterator a(A, held[k]); a; ++a)
+      result.insertBack(a.row(), Index(k)) = a.value();
+  }
+  result.finalize();
+  return result;
+}
+
+/// Psi^T D V and V^T D V below each other, [(n1+m) x m].
+MatrixXd damping_of_modes(const PartOfFrame &part, const SparseCholesky &factor, const Sparse &C_1, const MatrixXd &V)
+{
+  MatrixXd load = part.damping * V, result(Index(part.held.size()) + V.cols(), V.cols());
+  result << load(part.held, Eigen::all), V.transpose() * load;
+  hold(load, part.held);
+  factor.solve_in_place(load);
+  result.topRows(Index(part.held.size())) -= C_1.transpose() * load;
+  return result;
+}
+
+/// Size of the largest eigenvalue of D x = lambda C22 x, to some ten per cent.
+double largest_against_stiffness(const PartOfFrame &part, const SparseCholesky &factor)
+{
+  constexpr int rounds = 8;
+  MatrixXd      x      = MatrixXd::Ones(part.damping.rows(), 1);
+  double        size   = 0.;
+  for (int round = 0; round < rounds; ++round)
+  {
+    hold(x, part.held);
+    x /= std::max(x.norm(), 1e-300);
+    x = part.damping * x;
+    hold(x, part.held);
+    factor.solve_in_place(x);
+    size = x.norm();
+  }
+  return size;
+}
+
+} // namespace
+
+int modes_below(const PartOfFrame &part, double omega)
+{
+  return SparseCholesky::without_numbers(part.sums.C, part.held)
+      .inertia(part.sums.C, part.sums.M, omega * omega)
+      .negative;
+}
+
+CondensedPart condense(PartOfFrame part, int n_modes)
+{
+  const Sparse  &C = part.sums.C, &M = part.sums.M;
+  const Index    n1    = Index(part.held.size());
+  const bool     whole = contains(C, M) && contains(C, part.damping);
+  const Sparse   C_1   = columns_of(C, part.held);
+  CondensedPart  result;
+  SparseCholesky factor = factor_of(part);
+  {
+    part.sums.C = fem::SparseMatrix();
+    BlockLanczos::Options options;
+    options.room = 2 * n_modes + 4 * options.block; // little memory: it restarts two or three times
+    BlockLanczos search(M, std::make_shared<InverseByFactor>(factor, part.held), options);
+    search.find(n_modes);
+    LowestModes modes = search.modes(n_modes);
+    result.V          = std::move(modes.V);
+    result.omega      = std::move(modes.omega);
+  }
+  const VectorXd square = result.omega.cwiseAbs2();
+  result.M_1V           = columns_of(M, part.held).transpose() * result.V;
+  result.M_1V -= (C_1.transpose() * result.V) * square.cwiseInverse().asDiagonal();
+
+  MatrixXd deflection = part.load;
+  hold(deflection, part.held);
+  result.load.resize(n1 + n_modes, part.load.cols());
+  result.load.bottomRows(n_modes) = result.V.transpose() * deflection;
+  factor.solve_in_place(deflection);
+  result.load.topRows(n1) = -(C_1.transpose() * deflection);
+  const bool damped       = part.damping.nonZeros() > 0;
+  double     tau          = 0.;
+  MatrixXd   of_modes;
+  if (damped)
+  {
+    constexpr double second_order = 1e-4; // of D*: the relative error of its difference
+    of_modes                      = damping_of_modes(part, factor, C_1, result.V);
+    tau                           = second_order / std::max(largest_against_stiffness(part, factor), 1e-300);
+  }
+  factor.release();
+  part.sums.C = part.stiffness();
+
+  // Rounding of S counts omega_mesh^2 / sigma times in M*: 1e-7 with this share of the square of the highest mode.
+  constexpr double share        = 1e-4;
+  result.sigma                  = share * square[n_modes - 1];
+  const Sparse         pattern  = whole ? Sparse() : Sparse(Sparse(C + M) + part.damping);
+  const SparseCholesky analysis = whole ? std::move(factor) : SparseCholesky::without_numbers(pattern, part.held);
+  const FrontSelection all      = with_border(analysis.fronts(), whole ? C : pattern, part.held);
+  result.C                      = condensed(all, part, M, 0.);
+  const auto derivative         = [&](const Sparse &X, double step)
+  {
+    MatrixXd S = condensed(all, part, X, step);
+    S -= result.C;
+    S /= step;
+    return S;
+  };
+  result.M              = derivative(M, result.sigma);
+  const VectorXd weight = (result.sigma / (square.array() + result.sigma)).sqrt();
+  result.M.selfadjointView<Eigen::Lower>().rankUpdate(MatrixXd(result.M_1V * weight.asDiagonal()));
+  if (damped)
+  {
+    result.damping.resize(n1 + n_modes, n1 + n_modes);
+    result.damping.rightCols(n_modes)            = of_modes;
+    result.damping.topLeftCorner(n1, n1)         = derivative(part.damping, tau).selfadjointView<Eigen::Lower>();
+    result.damping.bottomLeftCorner(n_modes, n1) = of_modes.topRows(n1).transpose();
+  }
+  return result;
+}
+
+RecoveredPart recover(PartOfFrame part, const CondensedPart &condensed, const MatrixXd &X, const MatrixXd &beyond,
+                      const MatrixXd &modes)
+{
+  const Sparse        &M = part.sums.M, C_1 = columns_of(part.sums.C, part.held);
+  const Index          n1 = Index(part.held.size()), n = M.rows(), m = condensed.omega.size(), k = X.cols();
+  const SparseCholesky factor = factor_of(part);
+  part.sums.C                 = fem::SparseMatrix();
+  const VectorXd flexibility  = condensed.omega.cwiseAbs2().cwiseInverse();
+  const auto     psi          = [&](const auto &q1) // Psi q_1
+  {
+    MatrixXd U = C_1 * -q1;
+    hold(U, part.held);
+    factor.solve_in_place(U);
+    U(part.held, Eigen::all) = q1;
+    return U;
+  };
+
+  RecoveredPart result;
+  result.T.resize(n, k);
+  MatrixXd        moved    = MatrixXd::Zero(n, modes.cols()); // Psi q_1 of the modes
+  constexpr Index together = 16;                              // right-hand sides
+  for (Index first = 0; first < k; first += together)
+  {
+    const Index    count              = std::min(together, k - first);
+    const MatrixXd U                  = psi(X.block(0, first, n1, count));
+    result.T.middleCols(first, count) = U + condensed.V * X.block(n1, first, m, count);
+    moved += U * modes.middleRows(first, count);
+  }
+  MatrixXd inertia;
+  symmetric_product(M, moved, inertia);
+  hold(inertia, part.held);
+  moved = inertia;
+  factor.solve_in_place(moved);
+  const MatrixXd of_modes = condensed.V.transpose() * inertia;
+  result.left_out =
+      inertia.cwiseProduct(moved).colwise().sum() - (flexibility.asDiagonal() * of_modes.cwiseAbs2()).colwise().sum();
+
+  result.beyond = psi(beyond.topRows(n1)) + condensed.V * beyond.bottomRows(m);
+  if (beyond.cols() == 0)
+    return result;
+  MatrixXd deflection = part.load;
+  hold(deflection, part.held);
+  const MatrixXd kept = flexibility.asDiagonal() * (condensed.V.transpose() * deflection);
+  factor.solve_in_place(deflection);
+  result.beyond += deflection - condensed.V * kept;
+  return result;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "fem/assembly/cell_parts.h"
+#include "fem/values/sparse_matrix.h"
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// A part of a frame before its reduction.
+struct PartOfFrame
+{
+  fem::PartMatrices sums; ///< of cells, foundations and masses
+  /// [n_p x n_p] damping that differs from alpha M + beta C: foundations, less the share of Rayleigh that they and
+  /// masses do not have.
+  fem::SparseMatrix damping;
+  Eigen::MatrixXd   load; // [n_p x 3] of a unit acceleration
+  std::vector<int>  held; ///< interface: coordinates of other parts or of the mechanism, ascending
+  std::string       name; ///< "part 2 of 3", for messages
+  /// Assembles sums.C again, which makes room for other memory meanwhile.
+  std::function<fem::SparseMatrix()> stiffness;
+};
+
+/**
+ * A part in its interface coordinates q_1 [n1] and its lowest fixed-interface modes [m].  The constraint modes Psi
+ * [n_p x n1] are never stored: eliminating the interior from C - lambda M leaves
+ *
+ *     S(lambda) = C* - lambda M* - lambda^2 sum m_j m_j^T / (omega_j^2 - lambda),
+ *
+ * so that with the retained modes  M* = (S(-sigma) - S(0)) / sigma + sigma sum m_j m_j^T / (omega_j^2 + sigma)  lacks
+ * sigma F at most, F the flexibility of the truncated modes: docs/theory/substructures.md (9).
+ */
+struct CondensedPart
+{
+  Eigen::MatrixXd C, M;       // [n1 x n1], lower triangles: Psi^T C Psi, Psi^T M Psi
+  Eigen::MatrixXd M_1V;       // [n1 x m]  Psi^T M V, column j is m_j
+  Eigen::MatrixXd damping;    // [(n1+m) x (n1+m)] of PartOfFrame::damping, or empty: none
+  Eigen::MatrixXd load;       // [(n1+m) x 3] of the interior
+  Eigen::MatrixXd V;          // [n_p x m], V^T M V = E, zero at the interface
+  Eigen::VectorXd omega;      // [m] rad/s, ascending
+  double          sigma = 0.; // [1/s^2]
+};
+
+/// Number of fixed-interface modes below a frequency [rad/s].
+int modes_below(const PartOfFrame &part, double omega);
+
+/// @throws std::invalid_argument if the part moves freely with its interface fixed; ConvergenceFailure.
+CondensedPart condense(PartOfFrame part, int n_modes);
+
+/// Fields of a part that follow from those of the joined frame.
+struct RecoveredPart
+{
+  Eigen::MatrixXd T;        // [n_p x k]
+  Eigen::MatrixXd beyond;   // [n_p x 3] static deflection outside the basis
+  Eigen::VectorXd left_out; // [p] q_1^T F q_1 of each mode
+};
+
+/// @param X       [(n1+m) x k] columns of the joined frame in the coordinates of the part.
+/// @param beyond  [(n1+m) x 3] the same of the static deflection outside the basis.
+/// @param modes   [k x p] modes of the frame in its reduced coordinates.
+RecoveredPart recover(PartOfFrame part, const CondensedPart &condensed, const Eigen::MatrixXd &X,
+                      const Eigen::MatrixXd &beyond, const Eigen::MatrixXd &modes);
+
+} // namespace gestell::coupling
