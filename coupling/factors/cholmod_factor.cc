@@ -7,6 +7,7 @@
 
 #include <suitesparse/cholmod.h>
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -84,25 +85,31 @@ public:
   {
     for (const int i : matrices_.held)
       X.row(i).setZero();
-    cholmod_dense F{};
-    F.nrow                  = X.rows();
-    F.ncol                  = X.cols();
-    F.d                     = X.outerStride();
-    F.nzmax                 = F.d * F.ncol;
-    F.x                     = X.data();
-    F.xtype                 = CHOLMOD_REAL;
-    F.dtype                 = CHOLMOD_DOUBLE;
-    cholmod_dense *solution = cholmod_l_solve(CHOLMOD_A, L_, &F, &common_);
-    if (!solution)
-      throw std::bad_alloc();
-    X = Eigen::Map<const MatrixXd>(static_cast<const double *>(solution->x), X.rows(), X.cols());
-    cholmod_l_free_dense(&solution, &common_);
+    constexpr Eigen::Index at_once = 16; // columns: more take no less time each, but memory
+    for (Eigen::Index first = 0; first < X.cols(); first += at_once)
+    {
+      auto          columns = X.middleCols(first, std::min(at_once, X.cols() - first));
+      cholmod_dense F{};
+      F.nrow                  = columns.rows();
+      F.ncol                  = columns.cols();
+      F.d                     = X.outerStride();
+      F.nzmax                 = F.d * F.ncol;
+      F.x                     = columns.data();
+      F.xtype                 = CHOLMOD_REAL;
+      F.dtype                 = CHOLMOD_DOUBLE;
+      cholmod_dense *solution = cholmod_l_solve(CHOLMOD_A, L_, &F, &common_);
+      if (!solution)
+        throw std::bad_alloc();
+      columns = Eigen::Map<const MatrixXd>(static_cast<const double *>(solution->x), columns.rows(), columns.cols());
+      cholmod_l_free_dense(&solution, &common_);
+    }
   }
 
   Inertia below(double omega) override
   {
     if (!counting_)
-      counting_ = petsc_stiffness_factor(fem::Ranks::alone(), matrices_);
+      counting_ = petsc_stiffness_factor(
+          fem::Ranks::alone(), {&matrices_.stiffness(), matrices_.M, matrices_.held, nullptr, matrices_.available});
     return counting_->below(omega);
   }
 

@@ -1,6 +1,7 @@
 #include "coupling/factors/distributed_factor.h"
 
 #include "coupling/eigensolvers/slepc/mode_search.h"
+#include "coupling/eigensolvers/slepc/registered_types.h"
 #include "coupling/factors/mumps_factor.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "fem/parallel/petsc_session.h"
@@ -69,7 +70,7 @@ bool options_choose_solver()
   char      name[64] = "";
   PetscBool given    = PETSC_FALSE;
   PetscOptionsGetString(nullptr, solver_prefix, "-pc_factor_mat_solver_type", name, sizeof name, &given);
-  return given || has_option("-st_pc_type") || has_option("-st_ksp_type");
+  return (given && name != std::string(own_factor)) || has_option("-st_pc_type") || has_option("-st_ksp_type");
 }
 
 /// MUMPS, or the solver of PETSC_OPTIONS.
@@ -100,9 +101,11 @@ struct DistributedFactor::Solver
     require(PCSetType(pc, PCCHOLESKY));
     require(KSPSetFromOptions(ksp));
     require(KSPSetUp(ksp));
-    PCFailedReason failed = PC_NOERROR;
+    PCFailedReason failed = PC_NOERROR; // of this rank
     require(PCGetFailedReason(pc, &failed));
-    return failed == PC_NOERROR;
+    int any_failed = failed != PC_NOERROR;
+    MPI_Allreduce(MPI_IN_PLACE, &any_failed, 1, MPI_INT, MPI_MAX, comm);
+    return any_failed == 0;
   }
 
   /// F [all columns] -> X
@@ -177,7 +180,7 @@ bool DistributedFactor::factorise()
     return false;
   solver_     = std::move(solver);
   regularity_ = regularity_of(D);
-  return true;
+  return regularity_ > 0.; // LU and iterative solvers accept an indefinite matrix
 }
 
 void DistributedFactor::release()
@@ -189,6 +192,8 @@ void DistributedFactor::solve(Eigen::Ref<MatrixXd> X) const
 {
   if (rows_.size() == 0 || X.cols() == 0)
     return;
+  if (!solver_)
+    throw std::logic_error("DistributedFactor: call factorise() first");
   const QuietPetsc quiet;
   MatrixXd         F = X, result(X.rows(), X.cols());
   const auto       f = dense_columns(ranks_.comm(), rows_.owned(), rows_.size(), F);
@@ -236,8 +241,10 @@ Inertia DistributedFactor::inertia(double sigma) const
   if (rows_.size() == 0)
     return {};
   const QuietPetsc quiet;
-  const auto       A = stiffness(); // C - sigma M
-  const VectorXd   D = diagonal_of(A.get(), rows_.owned());
+  if (given_C_)
+    throw std::logic_error("DistributedFactor: a matrix that was given away has no modes");
+  const auto     A = stiffness(); // C - sigma M
+  const VectorXd D = diagonal_of(A.get(), rows_.owned());
   require(MatAXPY(A.get(), -sigma, mass().get(), DIFFERENT_NONZERO_PATTERN));
   const auto factor   = mumps_factor(ranks_, A.get(), false, available_);
   PetscInt   negative = 0, zero = 0, positive = 0;
@@ -357,13 +364,16 @@ std::unique_ptr<ModeSearch> DistributedFactor::search(const std::string         
 
   int count = known_on_first ? int(known_on_first->omega.size()) : 0;
   ranks_.broadcast(count);
-  LowestModes known{VectorXd(count), MatrixXd::Zero(found->rows.count(), count), VectorXd()};
+  LowestModes known{VectorXd(count), MatrixXd::Zero(found->rows.count(), count), VectorXd::Zero(count)};
   if (count > 0)
   {
     const MatrixXd none(0, count);
     if (known_on_first)
       known.omega = known_on_first->omega;
+    if (known_on_first && known_on_first->bound.size() == count)
+      known.bound = known_on_first->bound;
     ranks_.broadcast(known.omega.data(), count);
+    ranks_.broadcast(known.bound.data(), count);
     known.V.topRows(rows_.owned()) = rows_.deal_out(known_on_first ? known_on_first->V : none, count);
     found->inverse->complete(known.V);
   }

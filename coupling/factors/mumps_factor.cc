@@ -58,7 +58,7 @@ void require_memory(const fem::Ranks &ranks, Mat F, double available)
 PetscOwned<Mat> mumps_factor(const fem::Ranks &ranks, Mat A, bool definite, double available)
 {
   require(MatSetOption(A, MAT_SPD, definite ? PETSC_TRUE : PETSC_FALSE));
-  require(MatSetOptionsPrefix(A, matrix_prefix));
+  require(MatSetOptionsPrefixFactor(A, matrix_prefix));
   MatFactorInfo info;
   MatFactorInfoInitialize(&info);
   constexpr int first_spare = 30, largest_spare = 1000; // [%] of working memory beyond the estimate of the analysis
@@ -74,6 +74,8 @@ PetscOwned<Mat> mumps_factor(const fem::Ranks &ranks, Mat A, bool definite, doub
       require(MatMumpsSetIcntl(F, 24, 1)); // pivots of zero are found
     }
     require(MatCholeskyFactorSymbolic(F, A, nullptr, &info));
+    PetscInt spare_now = 0;
+    MatMumpsGetIcntl(F, 14, &spare_now);
     require_memory(ranks, F, available);
     require(MatCholeskyFactorNumeric(F, A, &info));
     MatFactorError error   = MAT_FACTOR_NOERROR;
@@ -82,14 +84,19 @@ PetscOwned<Mat> mumps_factor(const fem::Ranks &ranks, Mat A, bool definite, doub
     MatMumpsGetInfog(F, 1, &outcome);
     MatMumpsGetInfog(F, 12, &negative);
     constexpr int work_array_too_small[] = {-8, -9, -14, -15, -17, -20};
-    if (std::count(std::begin(work_array_too_small), std::end(work_array_too_small), outcome) && spare < largest_spare)
+    if (std::count(std::begin(work_array_too_small), std::end(work_array_too_small), outcome) &&
+        spare < largest_spare && spare_now == spare) // not a value of PETSC_OPTIONS
       continue;
     if (error == MAT_FACTOR_OUTMEMORY)
       throw ConvergenceFailure("the factor of the stiffness by MUMPS does not fit into the memory; start more ranks on "
                                "more computers, keep it on disk "
                                "(PETSC_OPTIONS=\"-reduction_mat_mumps_icntl_22 1\"), or use a coarser mesh");
-    if (definite && (error != MAT_FACTOR_NOERROR || negative > 0))
+    constexpr int singular = -10, indefinite_root = -40;
+    if (definite && (outcome == singular || outcome == indefinite_root || (outcome >= 0 && negative > 0)))
       return nullptr;
+    if (error != MAT_FACTOR_NOERROR || outcome < 0)
+      throw ConvergenceFailure("the factor of the stiffness: MUMPS failed with INFOG(1) = " + std::to_string(outcome) +
+                               "; its manual names the cause");
     return factor;
   }
 }

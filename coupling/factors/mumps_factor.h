@@ -17,7 +17,8 @@ void require(PetscErrorCode code);
  *
  * @param available  bytes of this computer.
  * @returns null if L L^T does not exist.
- * @throws NotEnoughMemory in one process, fem::AgreedFailure with the name of the computer on several ranks.
+ * @throws NotEnoughMemory by the estimate in one process, fem::AgreedFailure with the name of the computer on several
+ *         ranks; ConvergenceFailure where MUMPS itself fails.
  */
 PetscOwned<Mat> mumps_factor(const fem::Ranks &ranks, Mat A, bool definite, double available);
 

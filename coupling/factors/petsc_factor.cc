@@ -7,6 +7,7 @@
 #include "fem/parallel/petsc_session.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -79,6 +80,18 @@ Store &store()
   return *kept;
 }
 
+/// Options choose the collective calls, and mpirun does not send PETSC_OPTIONS to other computers.
+void take_options_of_first(const fem::Ranks &ranks)
+{
+  const char *given   = std::getenv("PETSC_OPTIONS");
+  std::string options = ranks.first() && given ? given : "";
+  ranks.broadcast(options);
+  if (ranks.first())
+    return;
+  require_petsc(PetscOptionsClear(nullptr), "options");
+  require_petsc(PetscOptionsInsertString(nullptr, options.c_str()), "options");
+}
+
 Reply carry_out(const fem::Ranks &ranks, const Message &message, const OnFirst &on_first)
 {
   fem::petsc_session();
@@ -90,6 +103,7 @@ Reply carry_out(const fem::Ranks &ranks, const Message &message, const OnFirst &
   case Call::make:
   {
     ranks.agree([] { use_one_blas_thread(); });
+    take_options_of_first(ranks);
     const FactorMatrices none;
     factors[message.factor] = std::make_unique<DistributedFactor>(ranks, on_first.matrices ? *on_first.matrices : none);
     break;

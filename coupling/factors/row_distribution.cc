@@ -38,7 +38,12 @@ std::vector<int> order_of_free(const SparseMatrix &A, const std::vector<int> &he
 SparseRowBlock rows_in_order(const SparseMatrix &A, const std::vector<int> &order, const std::vector<int> &place,
                              int first, int end)
 {
-  SparseRowBlock                      block;
+  SparseRowBlock block;
+  std::size_t    entries = 0;
+  for (int k = first; k < end; ++k)
+    entries += A.outerIndexPtr()[order[k] + 1] - A.outerIndexPtr()[order[k]];
+  block.column.reserve(entries);
+  block.value.reserve(entries);
   std::vector<std::pair<int, double>> row;
   for (int k = first; k < end; ++k)
   {

@@ -63,7 +63,9 @@ double density_of(const StepBasic_MeasureWithUnit &measure)
   double     mass = NAN, length = NAN;
   for (int i = 1; !unit.IsNull() && i <= unit->NbElements(); ++i)
   {
-    const auto [size, name]                     = size_of_unit(unit->ElementsValue(i)->Unit());
+    const auto [size, name] = size_of_unit(unit->ElementsValue(i)->Unit());
+    if (name != StepBasic_sunGram && name != StepBasic_sunMetre)
+      return NAN; // specific heat, for example
     (name == StepBasic_sunGram ? mass : length) = size;
   }
   return measure.ValueComponent() * mass / (length * length * length);
@@ -91,7 +93,8 @@ void add_material(ShapeLabel &label, const StepRepr_Representation &property)
       label.material = item->Name()->ToCString();
     if (const auto measure = Handle(StepRepr_MeasureRepresentationItem)::DownCast(item);
         !measure.IsNull() && !measure->Measure().IsNull())
-      if (const double density = density_of(*measure->Measure()); density > 0. && std::isfinite(density))
+      if (const double density = density_of(*measure->Measure());
+          density > 0. && std::isfinite(density) && !(label.density > 0.)) // the first is taken
         label.density = density;
   }
 }

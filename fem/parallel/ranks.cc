@@ -141,8 +141,12 @@ int Ranks::next_order() const
 void Ranks::settle(const std::exception_ptr &failure) const
 {
   auto [kind, message] = described(failure);
-  int         lowest   = kind == Kind::none ? size_ : rank_; // rank that speaks for all
-  MPI_Request request  = MPI_REQUEST_NULL;
+  if (size_ == 1 && kind != Kind::none)
+    throw AgreedFailure(kind, message);
+  if (size_ == 1)
+    return;
+  int         lowest  = kind == Kind::none ? size_ : rank_; // rank that speaks for all
+  MPI_Request request = MPI_REQUEST_NULL;
   MPI_Iallreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT, MPI_MIN, comm(), &request);
   await(request);
   if (lowest == size_)
@@ -167,6 +171,8 @@ void Ranks::broadcast(std::string &text) const
 
 void Ranks::broadcast_bytes(void *values, std::size_t size) const
 {
+  if (size_ == 1)
+    return;
   for (std::size_t first = 0; first < size; first += at_once)
   {
     MPI_Request request = MPI_REQUEST_NULL;

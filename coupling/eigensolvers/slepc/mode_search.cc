@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <new>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -132,6 +133,8 @@ void require_done(const ModeProblem &problem, PetscErrorCode code, const std::st
     std::rethrow_exception(std::exchange(problem.failure, nullptr));
   if (code == 0)
     return;
+  if (code == PETSC_ERR_MEM)
+    throw std::bad_alloc(); // of one rank, perhaps
   throw ConvergenceFailure("reduction: the eigensolver " + eigensolver + " failed: " + QuietPetsc::message() +
                            " (PETSc, error " + std::to_string(code) +
                            "); check reduction.eigensolver and PETSC_OPTIONS");
@@ -240,7 +243,7 @@ public:
     const auto x = vector();
     VectorXd   values(problem_.rows());
     for (int i = 0; i < problem_.rows(); ++i)
-      values(i) = std::fmod(0.6180339887498949 * double(problem_.free()[i] + 1), 1.) - 0.3;
+      values(i) = std::fmod(0.6180339887498949 * double(problem_.inverse()->place(problem_.free()[i]) + 1), 1.) - 0.3;
     set(x.get(), values);
     Vec starts[] = {x.get()};
     require(EPSSetInitialSpace(get(), 1, starts));

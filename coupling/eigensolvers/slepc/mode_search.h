@@ -26,7 +26,8 @@ struct ModePencil
  *
  * `eigensolver` is "block-lanczos" (our own type), "krylov-schur" or any type of SLEPc; hyphens in the names of SLEPc's
  * types do not count.  Preconditioned ones (lobpcg, gd, jd, rqcg) use the inverse as preconditioner.  Options of PETSc
- * and SLEPc with the prefix reduction_eps_ (PETSC_OPTIONS="-reduction_eps_view") have priority.
+ * and SLEPc with the prefix reduction_eps_ (PETSC_OPTIONS="-reduction_eps_view") have priority, except for the number
+ * of modes and the target.
  *
  * @param known  modes found elsewhere, M-orthonormal: only further ones are computed.
  * @throws ConvergenceFailure, also with the messages of PETSc and SLEPc.

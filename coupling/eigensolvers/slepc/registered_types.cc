@@ -274,14 +274,15 @@ OwnSearch &own(EPS eps)
 /// All columns at once through whatever solves in the spectral transformation.
 PetscErrorCode solve_by_transformation(ST st, Eigen::Ref<MatrixXd> X)
 {
-  MatrixXd F = X;
+  MatrixXd F = X, solution(X.rows(), X.cols());
   Mat      f = nullptr, x = nullptr;
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, int(F.rows()), int(F.cols()), F.data(), &f));
-  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, int(X.rows()), int(X.cols()), X.data(), &x));
-  PetscCall(MatDenseSetLDA(x, int(X.outerStride())));
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, int(F.rows()), int(F.cols()), solution.data(), &x));
   PetscCall(STMatMatSolve(st, f, x));
   PetscCall(MatDestroy(&f));
-  return MatDestroy(&x);
+  PetscCall(MatDestroy(&x));
+  X = solution;
+  return 0;
 }
 
 /// Finds the problem of the operators: one of this program, or one made of PETSc matrices in one process.

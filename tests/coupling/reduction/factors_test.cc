@@ -181,6 +181,13 @@ TEST(FactorOptions, OfPetscReplaceTheFactor)
   }
 }
 
+TEST(FactorOptions, OfMumpsReachItsFactor)
+{
+  const FixedLattice lattice;
+  const Options      options({{"-reduction_mat_mumps_icntl_22", "1"}, {"-reduction_mat_mumps_ooc_tmpdir", "/nowhere"}});
+  EXPECT_THROW(lattice.factor("mumps")->factorise(), coupling::ConvergenceFailure) << "a folder that does not exist";
+}
+
 TEST(FactorOptions, OfAPoorSolverAreRefused)
 {
   const FixedLattice lattice;
