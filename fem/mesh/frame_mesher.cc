@@ -88,6 +88,11 @@ void check_materials(CadModel &model, const FrameSpecification &specification)
       throw std::invalid_argument((given.place.empty() ? specification.place : given.place) +
                                   ": no density rho is given, and " + specification.cad + " has none for solid \"" +
                                   solid.name + "\"; add one, such as rho = \"7850 kg/m^3\" of steel.");
+    constexpr double balsa = 50., osmium = 25000.; // [kg/m^3] outside, the file has another unit
+    if (given.rho == 0. && (solid.density < balsa || solid.density > osmium))
+      throw std::invalid_argument(specification.place + ": the density of solid \"" + solid.name + "\" is " + own +
+                                  " in " + specification.cad +
+                                  ", which no solid material has; correct its unit, or add rho to the material.");
     constexpr double rounding = 1e-3; // of a density in a CAD file: three or four digits
     if (given.rho == 0.)
       of_file["the density is " + own + ", from the file"].push_back(solid.name);
@@ -155,8 +160,8 @@ double expected_averaged(const MeshedModel &result, const FrameSpecification &sp
 /// Refuses a mesh whose frame would not fit into the memory, before it is made.
 void judge_memory(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options)
 {
-  const auto sizes       = resolve_surface_sizes(options, result.selection);
-  result.expected_cells  = expected_cells(result.model, options.size, sizes, result.selection);
+  const auto sizes      = resolve_surface_sizes(options, result.selection);
+  result.expected_cells = expected_cells(result.model, options.size, sizes, result.selection);
   if (specification.parts != 1)
     return; // the parts are judged when the mesh is cut
   const double available = available_memory();

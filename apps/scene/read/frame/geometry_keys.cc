@@ -112,7 +112,7 @@ const std::vector<Key> &frame_keys()
       key::plain("parts", Key::Form::whole,
                  "number of parts that the mesh is cut into, which are reduced one after the other and joined: less "
                  "memory for large frames of plates and beams, [see there](parts.md#one-mesh-in-parts); `\"auto\"`: "
-                 "as many as need the least memory")
+                 "as many as need the least memory by estimate; at most 64")
           .also({Key::Form::text})
           .by_default(1.),
       key::plain("reduced", Key::Form::file,

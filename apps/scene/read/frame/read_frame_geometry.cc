@@ -288,11 +288,10 @@ double read_sewing(const SceneTable &frame)
 /// Number of parts, 0 for "auto".
 int read_number_of_parts(const SceneTable &frame)
 {
-  if (frame.is_text("parts"))
-    return frame.choice("parts", {"auto"}, "auto"), 0;
-  const int     number = frame.whole("parts");
-  constexpr int most   = 64; // that are joined at once
-  if (number < 1 || number > most)
+  constexpr int most = 64; // that are joined at once
+  const bool    text = frame.is_text("parts"), automatic = text && frame.text("parts") == "auto";
+  const int     number = automatic ? 0 : text ? -1 : frame.whole("parts");
+  if (!automatic && (number < 1 || number > most))
     throw frame.error("parts", "needs a number from 1 to " + std::to_string(most) + ", or \"auto\"");
   return number;
 }
@@ -310,8 +309,8 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
   const std::vector<std::string> endings{".step", ".stp", ".brep", ".geo", ".msh", ".inp"};
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
     throw frame.error("cad", "a file ending in '" + ending + "' cannot be read; valid: " + listed(endings));
-  specification.unit      = frame.value_or("unit", 0.);
-  specification.sew       = read_sewing(frame);
+  specification.unit = frame.value_or("unit", 0.);
+  specification.sew  = read_sewing(frame);
   if (frame.has("parts"))
     specification.parts = read_number_of_parts(frame);
   specification.cad       = with_dimensions(frame, specification.cad, specification.unit);
