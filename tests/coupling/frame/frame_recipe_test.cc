@@ -241,6 +241,7 @@ TEST_F(ContentKey, HasEveryValueAsAnIngredientOfItsOwn)
   recipe.expect("cut", [](Specification &f) { f.cuts.push_back(f.cuts[0]); });
   recipe.expect("cut.1", [](Specification &f) { f.cuts[0].name = "foot"; });
   recipe.expect("stress", [](Specification &f) { f.stress = true; });
+  recipe.expect("parts", [](Specification &f) { f.parts = 3; });
   recipe.expect("sew", [](Specification &f) { f.sew = 1e-4; });
   expect_options(recipe);
   recipe.expect_all_seen({"sources of the program", "missing", "mass.1.inertia"});
