@@ -137,8 +137,6 @@ public:
   {
     for (int s = 0; s < fronts_.count; ++s)
     {
-      if (take_given(s))
-        continue;
       assemble(s, panel_.data());
       int       info = 0;
       const int h = height(s), w = width(s);
@@ -158,8 +156,6 @@ public:
     growth_.assign(fronts_.n, 0.);
     for (int s = 0; s < fronts_.count; ++s)
     {
-      if (take_given(s))
-        continue;
       const int h = height(s), w = width(s);
       assemble(s, panel_.data());
       int info = 0;
@@ -194,17 +190,6 @@ private:
   {
     for (int j = 0; j < w; ++j)
       std::copy_n(from + ptrdiff_t(j) * from_height + j, w - j, to + ptrdiff_t(j) * to_height + j);
-  }
-
-  /// @returns false if the front has columns of its own.
-  bool take_given(int s)
-  {
-    if (width(s) > 0)
-      return false;
-    contribution_ = waiting_.empty() ? stack_.data() : waiting_.back().end;
-    border_.given(s, contribution_);
-    waiting_.push_back({s, contribution_, contribution_ + contribution_size(s)});
-    return true;
   }
 
   /// Entries of A in the columns of a front, and what earlier fronts pass on to it.

@@ -47,8 +47,6 @@ struct HeldMatrix
 /// own columns; its lower triangle counts.
 struct Border
 {
-  /// Provides the contribution of a front without columns, computed elsewhere.
-  std::function<void(int front, double *contribution)> given;
   /// Receives the contribution of a front with rows below, none of which is a column of these fronts.
   std::function<void(int front, const double *contribution)> left;
 };

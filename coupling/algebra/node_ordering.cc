@@ -147,6 +147,18 @@ LowerPattern::LowerPattern(const SparseMatrix &A, const std::vector<char> &held)
   view_ = view_of(n, rows_.size(), begin_.data(), rows_.data(), CHOLMOD_LONG);
 }
 
+cholmod_factor *LowerPattern::analysed(const std::vector<int> &order, cholmod_common &common)
+{
+  cholmod_l_start(&common);
+  common.print              = 0;
+  common.supernodal         = CHOLMOD_SUPERNODAL;
+  common.nmethods           = 1;
+  common.method[0].ordering = CHOLMOD_GIVEN;
+  common.postorder          = 1;
+  std::vector<SuiteSparse_long> given(order.begin(), order.end());
+  return cholmod_l_analyze_p(&view_, given.data(), nullptr, 0, &common);
+}
+
 std::vector<int> node_ordering(const SparseMatrix &A, const std::vector<char> &held)
 {
   const int        n = int(A.cols());

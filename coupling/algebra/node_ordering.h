@@ -28,6 +28,9 @@ class LowerPattern
 public:
   LowerPattern(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held);
   cholmod_sparse *view() { return &view_; }
+  /// Starts `common` and analyses this pattern for a supernodal factor; the caller ends it by cholmod_l_finish().
+  /// @returns nullptr, or a factor with a failure in `common`, if the memory does not suffice.
+  cholmod_factor *analysed(const std::vector<int> &order, cholmod_common &common);
 
 private:
   std::vector<SuiteSparse_long> begin_{0}, rows_;

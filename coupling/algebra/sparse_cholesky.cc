@@ -31,20 +31,11 @@ struct Analysis
 /// Symbolic analysis by CHOLMOD from the pattern of A.
 Analysis analysed(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held)
 {
-  cholmod_common common;
-  cholmod_l_start(&common);
-  common.print              = 0;
-  common.supernodal         = CHOLMOD_SUPERNODAL;
-  common.nmethods           = 1;
-  common.method[0].ordering = CHOLMOD_GIVEN;
-  common.postorder          = 1;
-
-  const std::vector<int>        places = node_ordering(A, held);
-  std::vector<SuiteSparse_long> order(places.begin(), places.end());
-  LowerPattern                  lower(A, held);
-  cholmod_factor               *L = cholmod_l_analyze_p(lower.view(), order.data(), nullptr, 0, &common);
-  Analysis                      result;
-  const bool                    done = L && common.status >= CHOLMOD_OK && L->ssize <= std::size_t(INT_MAX);
+  cholmod_common  common;
+  LowerPattern    lower(A, held);
+  cholmod_factor *L = lower.analysed(node_ordering(A, held), common);
+  Analysis        result;
+  const bool      done = L && common.status >= CHOLMOD_OK && L->ssize <= std::size_t(INT_MAX);
   if (done)
   {
     const auto ints = [](const void *p, std::size_t count)

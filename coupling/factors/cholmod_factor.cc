@@ -30,15 +30,7 @@ std::vector<char> marks_of(const std::vector<int> &held, Eigen::Index n)
 class CholmodFactor final : public StiffnessFactor
 {
 public:
-  explicit CholmodFactor(FactorMatrices matrices) : matrices_(std::move(matrices))
-  {
-    cholmod_l_start(&common_);
-    common_.print              = 0;
-    common_.supernodal         = CHOLMOD_SUPERNODAL;
-    common_.nmethods           = 1;
-    common_.method[0].ordering = CHOLMOD_GIVEN;
-    common_.postorder          = 1;
-  }
+  explicit CholmodFactor(FactorMatrices matrices) : matrices_(std::move(matrices)) { cholmod_l_start(&common_); }
   ~CholmodFactor() override
   {
     release();
@@ -55,10 +47,9 @@ public:
     const std::vector<char>            held = marks_of(matrices_.held, C.rows());
     LowerPattern                       lower(C, held);
     const std::vector<double>          values = values_in(*lower.view(), C, held);
-    const std::vector<int>             places = node_ordering(C, held);
-    std::vector<SuiteSparse_long>      order(places.begin(), places.end());
-    cholmod_sparse                    *A = lower.view();
-    L_                                   = cholmod_l_analyze_p(A, order.data(), nullptr, 0, &common_);
+    cholmod_sparse                    *A      = lower.view();
+    cholmod_l_finish(&common_);
+    L_ = lower.analysed(node_ordering(C, held), common_);
     require_memory();
     if (const double needed = double(sizeof(double)) * double(L_->xsize); needed > matrices_.available)
     {

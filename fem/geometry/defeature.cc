@@ -20,7 +20,7 @@ namespace gestell::fem
 namespace
 {
 
-/// Removes faces by extension of their neighbours; the model stays as it is where that is impossible.
+/// Removes faces by extension of their neighbours; where that is impossible, the model is left unchanged.
 void remove_faces(CadModel &model, const std::vector<int> &tags)
 {
   const TaggedShapes      shapes = tagged_shapes(model);

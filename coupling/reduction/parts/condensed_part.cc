@@ -105,8 +105,7 @@ MatrixXd condensed(const FrontSelection &all, const PartOfFrame &part, const Spa
                          sizeof(double) * (double(multifrontal_workspace(fronts)) + double(n1) * double(n1)),
                          "Use fewer parts, or a coarser mesh.");
   MatrixXd     S = MatrixXd::Zero(n1, n1);
-  const Border border{{},
-                      [&](int s, const double *contribution)
+  const Border border{[&](int s, const double *contribution)
                       {
                         const int  *rows = fronts.rows + fronts.begin[s] + (fronts.first[s + 1] - fronts.first[s]);
                         const Index r    = fronts.rows + fronts.begin[s + 1] - rows;

@@ -23,7 +23,7 @@ namespace gestell::coupling
 ReducedModel reduce_in_parts(const fem::FrameMatrices &frame, const fem::CellParts &parts, double alpha, double beta,
                              const ReductionOptions &options, const std::string &place, const Progress &progress);
 
-/// Memory [byte] of a reduction in parts, docs/theory/substructures.md (12): of the largest part, or of the sum.
+/// Memory [byte] of a reduction in parts, docs/theory/substructures.md (11): of the largest part, or of the sum.
 double memory_of_parts(const fem::CellParts &parts, const fem::FrameMatrices &frame, double compactness);
 
 } // namespace gestell::coupling
