@@ -22,18 +22,24 @@ namespace
 
 struct Modes
 {
-  int        n_rigid;
-  DenseModes ritz;
-  int        within; // elastic ones up to the limit
+  int             n_rigid;
+  DenseModes      ritz;
+  Eigen::VectorXd omega;  // without the error of the reduction where that is known
+  int             within; // elastic ones up to the limit
 };
 
 Modes modes_of(const ReducedModel &reduced)
 {
-  const int    n_rigid = reduced.frame.n_rigid();
-  DenseModes   ritz    = dense_modes(reduced.frame.C, reduced.frame.M, cancelled_by_reduction, n_rigid);
-  const double limit   = (1. + 1e-6) * two_pi * reduced.frame.frequency_limit_hz;
-  const auto   within  = static_cast<int>((ritz.omega.array() <= limit).count() - n_rigid);
-  return {n_rigid, std::move(ritz), within};
+  const int       n_rigid = reduced.frame.n_rigid();
+  DenseModes      ritz    = dense_modes(reduced.frame.C, reduced.frame.M, cancelled_by_reduction, n_rigid);
+  Eigen::VectorXd omega   = ritz.omega;
+  for (Eigen::Index j = n_rigid; j < omega.size(); ++j)
+    if (const double refined = two_pi * refined_hz(reduced.frame, j); !std::isnan(refined))
+      omega[j] = refined;
+  // The limit may be the refined frequency of a mode, in other digits.
+  const double limit  = (1. + 1e-6) * two_pi * reduced.frame.frequency_limit_hz;
+  const auto   within = static_cast<int>((omega.array() <= limit).count() - n_rigid);
+  return {n_rigid, std::move(ritz), std::move(omega), within};
 }
 
 /// Errors of frequencies from the stresses of the first mode, the last one and some between them.
@@ -85,10 +91,7 @@ Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const
   }
   Eigen::VectorXd error(count);
   for (int j = 0; j < count; ++j)
-  {
-    const double refined = two_pi * refined_hz(reduced.frame, modes.n_rigid + j); // without the error of the reduction
-    error[j] = error_by_raising(std::isnan(refined) ? modes.ritz.omega[modes.n_rigid + j] : refined, raised[j]);
-  }
+    error[j] = error_by_raising(modes.omega[modes.n_rigid + j], raised[j]);
   return error;
 }
 

@@ -3,6 +3,8 @@
 #include "coupling/reduction/estimates/raised_modes.h"
 
 #include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/modes/modes.h"
+#include "coupling/plugin/frame/mesh_statement.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
@@ -176,6 +178,21 @@ TEST(RaisedDegree, OfAFreeFrameCostsNoEnergyInRigidMotions)
       R.row(raised.place[i]) = frame.matrices.rigid_motions.row(Eigen::Index(i));
     EXPECT_LT((raised.C * R).norm(), 1e-10 * raised.C.norm() * R.norm());
   }
+}
+
+TEST(MeshErrorEstimate, JudgesTheModeAtTheLimitThoughItsReducedFrequencyLiesAbove)
+{
+  fem::FrameSpecification specification = free_steel();
+  specification.supports                = {clamped("foot", {"x0"})};
+  specification.interfaces              = {interface("tip", {"x1"}, fem::InterfaceCoupling::rigid)};
+  const auto frame = fem::discretise_with_mesh_error(brick_mesh({6, 1, 1}, {1., 0.1, 0.07}), specification);
+  coupling::ReductionOptions options;
+  options.n_modes                   = 3;
+  coupling::ReducedModel reduced    = coupling::reduce_with_basis(frame.matrices, options);
+  const double           refined_hz = coupling::refined_hz(reduced.frame, 2);
+  ASSERT_GT(reduced.frame.frequency_error[2], 1e-5) << "the test needs a reduction with an error";
+  reduced.frame.frequency_limit_hz = refined_hz;
+  EXPECT_EQ(coupling::modal_mesh_error(reduced, frame.matrices, *frame.mesh_error, true).error.size(), 3);
 }
 
 } // namespace
