@@ -1,6 +1,7 @@
 #include "apps/cli/team.h"
 
 #include "apps/cli/command.h"
+#include "coupling/frame/frame_recipe.h"
 #include "coupling/plugin/frame_service_loader.h"
 #include "coupling/plugin/plugin.h"
 
@@ -26,6 +27,17 @@ std::string working_folder()
   return std::filesystem::current_path(gone).string();
 }
 
+/// Ranks exchange values whose form and digits are those of one program.
+void require_same_program(const coupling::Launch &launched)
+{
+  const int n_others = coupling::ranks_called_otherwise(coupling::sources_of_frames(), "");
+  if (n_others > 0)
+    throw std::invalid_argument(std::string(launched.by) + ": " + std::to_string(n_others) + " of " +
+                                std::to_string(launched.size) +
+                                " ranks run another build of gestell than rank 0; install the same version, with the "
+                                "same gmsh, deal.II and OpenCASCADE, on all computers");
+}
+
 /// Ranks compute one task together: different command lines of other ranks would be ignored silently.
 void require_same_calls(const coupling::Launch &launched, const std::string &words, int n_others)
 {
@@ -48,6 +60,7 @@ MpiRun::MpiRun(const std::string &words) : launch_(coupling::launch()), team_(co
     throw std::invalid_argument(
         std::string(launch_.by) + ": this build has no finite element side, for which " + std::to_string(launch_.size) +
         " processes could compute together; build it with GESTELL_FEM=ON, or say " + coupling::way_of_cases);
+  require_same_program(launch_);
   require_same_calls(launch_, words, coupling::ranks_called_otherwise(words, working_folder()));
 }
 

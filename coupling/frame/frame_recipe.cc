@@ -280,7 +280,7 @@ public:
 
   Recipe finished()
   {
-    add("sources of the program", std::string(frame_sources_hash));
+    add("sources of the program", sources_of_frames());
     return std::move(recipe_);
   }
 
@@ -332,6 +332,11 @@ std::string parse_word(const std::string &text, std::size_t &at, std::size_t len
 }
 
 } // namespace
+
+std::string sources_of_frames()
+{
+  return frame_sources_hash;
+}
 
 Recipe recipe_of(const fem::FrameSpecification &frame, const ReductionOptions &options)
 {

@@ -32,6 +32,9 @@ Recipe recipe_of(const fem::FrameSpecification &frame, const ReductionOptions &o
 /// The same for a frame that is given by matrices.
 Recipe recipe_of(const fem::FrameMatrices &frame, const ReductionOptions &options);
 
+/// SHA-256 of the sources that make a frame and of the versions of gmsh, deal.II and OpenCASCADE, in hexadecimal.
+std::string sources_of_frames();
+
 /// Text form of a recipe for parse_recipe(), for any names and values.
 std::string text_of(const Recipe &recipe);
 /// @throws std::runtime_error if the text is not one of text_of().

@@ -1,5 +1,6 @@
 // A case per process of a launcher: nothing is taken for the work of a team that is not.
 
+#include "coupling/frame/frame_recipe.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
@@ -89,6 +90,26 @@ TEST(CasesOfRanks, AreAllMadeApart)
     expect_answer(on_ranks(n, by_variable.run_there(), "GESTELL_APART=1"), 0, {"report: "});
     EXPECT_EQ(by_variable.n_done(), n);
   }
+}
+
+/// The program with other sources of frames: a copy in which their hash is another one.
+TEST(Ranks, OfAnotherBuildAreRefused)
+{
+  const fs::path    built = GESTELL_BINARY_DIR "/bin";
+  const std::string hash  = coupling::sources_of_frames();
+  std::string       bytes = read(built / "gestell");
+  ASSERT_NE(bytes.find(hash), std::string::npos);
+  for (auto at = bytes.find(hash); at != std::string::npos; at = bytes.find(hash, at))
+    bytes[at] = bytes[at] == 'a' ? 'b' : 'a';
+  const Folder folder{"other_build"};
+  folder.file("gestell", bytes);
+  fs::permissions(folder / "gestell", fs::perms::owner_all);
+  for (const char *library : {"libgestell_team.so", "libgestell_frame.so"})
+    fs::create_symlink(built / library, folder / library);
+  const std::string other = "\"" + (folder / "gestell").string() + "\"";
+  expect_answer(on_ranks(2, "cd \"" + (folder / "").string() + "\" && if [ $OMPI_COMM_WORLD_RANK = 1 ]; then " + other +
+                                " reduce frame.toml; else " + program + " reduce frame.toml; fi"),
+                2, {"gestell: mpirun: 1 of 2 ranks run another build of gestell than rank 0; install the same"});
 }
 
 TEST(CasesOfRanks, OfStudiesAreRefusedToo)
