@@ -10,11 +10,8 @@
 namespace gestell::fem
 {
 
-namespace
-{
-
 /// Supported by the nodes of the cells.  MappingFEField does the same for meshes of one kind of cells.
-class NodalMapping : public dealii::MappingFE<3>
+class CellValues::NodalMapping : public dealii::MappingFE<3>
 {
 public:
   NodalMapping(const QuadraticMesh &mesh, CellKind kind)
@@ -40,8 +37,6 @@ private:
   const QuadraticMesh &mesh_;
   unsigned int         n_nodes_;
 };
-
-} // namespace
 
 struct CellValues::OfKind
 {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <memory>
 
 namespace gestell::fem
@@ -38,6 +39,7 @@ public:
   const PointValues &of(int cell);
 
 private:
+  class NodalMapping;
   struct OfKind;
   const QuadraticMesh                   &mesh_;
   CellPoints                             points_;

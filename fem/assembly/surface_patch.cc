@@ -66,8 +66,9 @@ FaceIntegrals<int(n)> integrals(const QuadraticMesh &mesh, const std::array<int,
     const double dA = point.weight * Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1))).norm();
     result.area += dA;
     result.moment += dA * X * point.N;
-    result.mass += dA * (point.N * point.N.transpose()).eval(); // symmetric to the last bit
+    result.mass += dA * point.N * point.N.transpose();
   }
+  result.mass = 0.5 * (result.mass + result.mass.transpose()).eval(); // symmetric to the last bit
   return result;
 }
 
