@@ -10,6 +10,19 @@
 namespace gestell::fem
 {
 
+namespace
+{
+
+dealii::Quadrature<3> points_of(CellKind kind, CellPoints points)
+{
+  if (points != CellPoints::nodes)
+    return quadrature(kind, points == CellPoints::samples ? 2 : points == CellPoints::rule ? 3 : 4);
+  const std::vector<dealii::Point<3>> &nodes = finite_element(kind).get_unit_support_points();
+  return {nodes, std::vector<double>(nodes.size(), 1.)};
+}
+
+} // namespace
+
 /// Supported by the nodes of the cells.  MappingFEField does the same for meshes of one kind of cells.
 class CellValues::NodalMapping : public dealii::MappingFE<3>
 {

@@ -22,7 +22,7 @@ enum class CellPoints
 /// Shape functions N_a of a cell at some of its points.
 struct PointValues
 {
-  Eigen::VectorXd weight; ///< [points] of the quadrature, times det(dx/dxi) [m^3]
+  Eigen::VectorXd weight; ///< [points] of the quadrature, one for nodes, times det(dx/dxi) [m^3]
   Eigen::MatrixXd N;      ///< [n x points]
   Eigen::MatrixXd dN;     ///< [n x 3 points] dN_a / dx_d [1/m] of point k in column 3 k + d
 };

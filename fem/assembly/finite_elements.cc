@@ -13,11 +13,6 @@ namespace
 
 using Quadrature = dealii::Quadrature<3>;
 
-Quadrature plain(const std::vector<dealii::Point<3>> &points)
-{
-  return {points, std::vector<double>(points.size(), 1.)};
-}
-
 /// A rule of the triangle times one of Gauss.
 Quadrature across(const dealii::Quadrature<2> &triangle, const dealii::Quadrature<1> &line)
 {
@@ -39,25 +34,20 @@ dealii::Quadrature<dim> simplex_rule()
   return dealii::QWitherdenVincentSimplex<dim>(3);
 }
 
-Quadrature of_tetrahedron(CellPoints points)
+Quadrature of_tetrahedron(unsigned int n_along)
 {
   constexpr double near = 0.58541019662496845, far = 0.1381966011250105; // rule of degree 2
-  if (points == CellPoints::samples)
-    return plain({{far, far, far}, {near, far, far}, {far, near, far}, {far, far, near}});
-  return simplex_rule<3>();
-}
-
-unsigned int gauss_points(CellPoints points)
-{
-  return points == CellPoints::samples ? 2 : points == CellPoints::rule ? 3 : 4;
+  if (n_along > 2)
+    return simplex_rule<3>();
+  return {{{far, far, far}, {near, far, far}, {far, near, far}, {far, far, near}}, std::vector<double>(4, 1. / 24.)};
 }
 
 /// Gradients of quadratics are linear on a triangle: three points inside carry them.
-Quadrature of_prism(CellPoints points)
+Quadrature of_prism(unsigned int n_along)
 {
   const std::vector<dealii::Point<2>> inside = {{1. / 6., 1. / 6.}, {2. / 3., 1. / 6.}, {1. / 6., 2. / 3.}};
   const dealii::Quadrature<2>         three(inside, std::vector<double>(3, 1. / 6.));
-  return across(points == CellPoints::samples ? three : simplex_rule<2>(), dealii::QGauss<1>(gauss_points(points)));
+  return across(n_along > 2 ? simplex_rule<2>() : three, dealii::QGauss<1>(n_along));
 }
 
 } // namespace
@@ -78,18 +68,16 @@ const dealii::FiniteElement<3> &finite_element(CellKind kind)
   }
 }
 
-Quadrature points_of(CellKind kind, CellPoints points)
+Quadrature quadrature(CellKind kind, unsigned int n_along)
 {
-  if (points == CellPoints::nodes)
-    return plain(finite_element(kind).get_unit_support_points());
   switch (kind)
   {
   case CellKind::tetrahedron:
-    return of_tetrahedron(points);
+    return of_tetrahedron(n_along);
   case CellKind::hexahedron:
-    return dealii::QGauss<3>(gauss_points(points));
+    return dealii::QGauss<3>(n_along);
   default:
-    return of_prism(points);
+    return of_prism(n_along);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/assembly/cell_values.h"
+#include "fem/values/cell_shape.h"
 
 #include <deal.II/base/quadrature.h>
 #include <deal.II/fe/fe.h>
@@ -19,7 +19,7 @@ struct Grid
 /// FE_SimplexP(2), FE_Q(2) or FE_WedgeP(2).
 const dealii::FiniteElement<3> &finite_element(CellKind kind);
 
-/// Plain points have weights of one.
-dealii::Quadrature<3> points_of(CellKind kind, CellPoints points);
+/// Rules of 2, 3 or 4 points along a line; see CellPoints: samples, rule, finer.
+dealii::Quadrature<3> quadrature(CellKind kind, unsigned int n_along);
 
 } // namespace gestell::fem

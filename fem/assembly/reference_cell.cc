@@ -14,12 +14,11 @@ namespace gestell::fem
 namespace
 {
 
-Eigen::Matrix3Xd coordinates(const dealii::Quadrature<3> &points)
+Eigen::Matrix3Xd columns(const std::vector<dealii::Point<3>> &points)
 {
   Eigen::Matrix3Xd xi(3, points.size());
-  for (unsigned int k = 0; k < points.size(); ++k)
-    for (unsigned int d = 0; d < 3; ++d)
-      xi(d, k) = points.point(k)[d];
+  for (std::size_t k = 0; k < points.size(); ++k)
+    xi.col(Eigen::Index(k)) << points[k][0], points[k][1], points[k][2];
   return xi;
 }
 
@@ -101,8 +100,8 @@ ReferenceCell make_cell(CellKind kind)
   if (kind == CellKind::hexahedron)
     cell.node_of_corner = {0, 1, 3, 2, 4, 5, 7, 6};
   cell.faces      = faces_of(shape);
-  cell.nodes      = coordinates(points_of(kind, CellPoints::nodes));
-  cell.samples    = coordinates(points_of(kind, CellPoints::samples));
+  cell.nodes      = columns(finite_element(kind).get_unit_support_points());
+  cell.samples    = columns(quadrature(kind, 2).get_points());
   cell.between    = corners_between(cell);
   cell.to_corners = extrapolation(cell);
   return cell;
