@@ -1,10 +1,76 @@
 #include "fem/assembly/affine_constraints.h"
 
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/sparsity_pattern.h>
+
 #include <algorithm>
 #include <cassert>
+#include <numeric>
+#include <stdexcept>
 
 namespace gestell::fem
 {
+
+struct AffineConstraints::Lines
+{
+  dealii::AffineConstraints<double> of;
+};
+
+namespace
+{
+
+using Indices = std::vector<dealii::types::global_dof_index>;
+
+/// Rows and columns of A; the upper triangle is a copy of the lower one, since sums over ties are rounded in the order
+/// of rows.
+SparseMatrix taken_from(const dealii::SparseMatrix<double> &A, const std::vector<int> &coordinates)
+{
+  std::vector<int> number(A.m(), -1);
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    number[coordinates[i]] = static_cast<int>(i);
+  const int  n                   = static_cast<int>(coordinates.size());
+  const auto for_each_below_diag = [&](const auto &visit)
+  {
+    for (int i = 0; i < n; ++i)
+    {
+      const unsigned int row   = coordinates[i];
+      auto               entry = A.begin(row);
+      for (++entry; entry != A.end(row) && entry->column() < row; ++entry) // deal.II stores the diagonal first
+        if (const int j = number[entry->column()]; j >= 0)
+          visit(i, j, entry->value());
+      visit(i, i, A.diag_element(row));
+    }
+  };
+
+  SparseMatrix result(n, n);
+  for_each_below_diag(
+      [begin = result.outerIndexPtr() + 1](int i, int j, double)
+      {
+        ++begin[i];
+        begin[j] += j < i;
+      });
+  std::partial_sum(result.outerIndexPtr(), result.outerIndexPtr() + n + 1, result.outerIndexPtr());
+  result.resizeNonZeros(result.outerIndexPtr()[n]);
+  std::vector<int> next(result.outerIndexPtr(), result.outerIndexPtr() + n);
+  const auto       put = [&](int row, int column, double value)
+  {
+    result.innerIndexPtr()[next[column]] = row;
+    result.valuePtr()[next[column]++]    = value;
+  };
+  for_each_below_diag(
+      [&](int i, int j, double value)
+      {
+        put(j, i, value);
+        if (j < i)
+          put(i, j, value);
+      });
+  return result;
+}
+
+} // namespace
 
 MultipointConstraints::MultipointConstraints(int n_nodes) : held(3 * n_nodes, 0), tie_of(3 * n_nodes, -1) {}
 
@@ -16,228 +82,100 @@ void MultipointConstraints::tie(int displacement, Combination combination)
 }
 
 AffineConstraints::AffineConstraints(const MultipointConstraints &constraints)
-    : column_(constraints.held.size(), -1), new_column_(constraints.measures.size(), -1), tied_row_(constraints.tie_of),
-      tied_(constraints.ties.size())
+    : constraints_(constraints), index_(constraints.held.size() + constraints.measures.size())
 {
-  for (std::size_t i = 0; i < column_.size(); ++i)
-    if (tied_row_[i] >= 0)
-      tied_[tied_row_[i]] = static_cast<int>(i);
-    else if (!constraints.held[i])
-      column_[i] = n_coordinates_++;
-  n_free_ = n_coordinates_;
+  const auto &[held, holder, tie_of, ties, measures, n_interface] = constraints_;
+  const int  n_displacements = static_cast<int>(held.size()), n_values = static_cast<int>(index_.size());
+  const auto is_free = [&](int value) { return value >= n_displacements || (!held[value] && tie_of[value] < 0); };
+  // Free displacements, inner coordinates, coordinates of interfaces, and what depends on them.
+  int n = 0;
+  for (int i = 0; i < n_displacements; ++i)
+    if (is_free(i))
+      index_[i] = n++;
+  for (int i = n_displacements + n_interface; i < n_values; ++i)
+    index_[i] = n++;
+  for (int i = n_displacements; i < n_displacements + n_interface; ++i)
+    index_[i] = n++;
+  G_.resize(n_displacements, n);
+  for (int i = 0; i < n_displacements; ++i)
+    if (!is_free(i))
+      index_[i] = n++;
 
-  const int n_new = static_cast<int>(new_column_.size());
-  for (int k = constraints.n_interface_coordinates; k < n_new; ++k)
-    new_column_[k] = n_coordinates_++;
-  for (int k = 0; k < constraints.n_interface_coordinates; ++k)
-    new_column_[k] = n_coordinates_++;
-  n_of_nodes_ = constraints.n_interface_coordinates;
+  const auto lines = std::make_shared<Lines>();
+  for (int i = 0; i < n_displacements; ++i)
+    if (!is_free(i))
+    {
+      lines->of.add_line(index_[i]);
+      if (tie_of[i] >= 0)
+        for (const auto &[value, weight] : ties[tie_of[i]])
+        {
+          if (value < n_displacements && tie_of[value] >= tie_of[i]) // else deal.II may follow ties in a circle
+            throw std::invalid_argument("constraints: displacement " + std::to_string(i) +
+                                        " is tied to itself or to a displacement that is tied later");
+          lines->of.add_entry(index_[i], index_[value], weight);
+        }
+    }
+  lines->of.close();
+  lines_ = lines;
 
   std::vector<Eigen::Triplet<double>> entries;
-  const std::vector<Combination>      ties = closed_ties(constraints.held, constraints.tie_of, constraints.ties);
-  for (std::size_t row = 0; row < ties.size(); ++row)
-    for (const auto &[value, weight] : ties[row])
-    {
-      assert(coordinate(value) >= 0);
-      entries.emplace_back(row, coordinate(value), weight);
-    }
-  G_t_.resize(tied_.size(), n_coordinates_);
-  G_t_.setFromTriplets(entries.begin(), entries.end());
-}
-
-AffineConstraints::AffineConstraints(const Lists &lists)
-    : column_(lists.column), tied_row_(lists.tied_row), tied_(lists.tied), n_free_(lists.n_free),
-      n_coordinates_(lists.n_coordinates)
-{
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t row = 0; row + 1 < lists.tie_begin.size(); ++row)
-    for (int k = lists.tie_begin[row]; k < lists.tie_begin[row + 1]; ++k)
-      entries.emplace_back(row, lists.tie_column[k], lists.tie_weight[k]);
-  G_t_.resize(tied_.size(), n_coordinates_);
-  G_t_.setFromTriplets(entries.begin(), entries.end());
-}
-
-AffineConstraints::Lists AffineConstraints::of_nodes(const std::vector<int> &nodes) const
-{
-  Lists            lists;
-  std::vector<int> number(n_coordinates_, -1); // position in the lists
-  const auto       number_of = [&](int coordinate)
-  {
-    if (number[coordinate] < 0)
-    {
-      number[coordinate] = static_cast<int>(lists.coordinates.size());
-      lists.coordinates.push_back(coordinate);
-    }
-    return number[coordinate];
-  };
-  for (const int node : nodes)
-    for (int i = 3 * node; i < 3 * node + 3; ++i)
-      lists.column.push_back(column_[i] < 0 ? -1 : number_of(column_[i]));
-  lists.n_free = static_cast<int>(lists.coordinates.size());
-
-  std::vector<std::pair<int, int>> ties; // rows of G_t, and their displacements in the lists
-  for (std::size_t k = 0; k < lists.column.size(); ++k)
-    if (const int row = tied_row_[3 * nodes[k / 3] + static_cast<int>(k % 3)]; row >= 0)
-      ties.emplace_back(row, static_cast<int>(k));
-  std::sort(ties.begin(), ties.end());
-  lists.tied_row.assign(lists.column.size(), -1);
-  lists.tie_begin.push_back(0);
-  for (const auto &[row, displacement] : ties)
-  {
-    lists.tied_row[displacement] = static_cast<int>(lists.tied.size());
-    lists.tied.push_back(displacement);
-    for (decltype(G_t_)::InnerIterator entry(G_t_, row); entry; ++entry)
-    {
-      lists.tie_column.push_back(number_of(static_cast<int>(entry.col())));
-      lists.tie_weight.push_back(entry.value());
-    }
-    lists.tie_begin.push_back(static_cast<int>(lists.tie_column.size()));
-  }
-  lists.n_coordinates = static_cast<int>(lists.coordinates.size());
-  return lists;
-}
-
-int AffineConstraints::coordinate(int value) const
-{
-  const int n = n_displacements();
-  return value < n ? column_[value] : new_column_[value - n];
+  for (int i = 0; i < n_displacements; ++i)
+    if (is_free(i))
+      entries.emplace_back(i, index_[i], 1.);
+    else
+      for (const auto &[index, weight] : *lines->of.get_constraint_entries(index_[i]))
+        entries.emplace_back(i, index, weight);
+  G_.setFromTriplets(entries.begin(), entries.end());
 }
 
 Combination AffineConstraints::row(int displacement) const
 {
-  if (column_[displacement] >= 0)
-    return {{column_[displacement], 1.}};
   Combination result;
-  if (tied_row_[displacement] >= 0)
-    for (decltype(G_t_)::InnerIterator entry(G_t_, tied_row_[displacement]); entry; ++entry)
-      result.emplace_back(static_cast<int>(entry.col()), entry.value());
+  for (decltype(G_)::InnerIterator entry(G_, displacement); entry; ++entry)
+    result.emplace_back(static_cast<int>(entry.col()), entry.value());
   return result;
 }
 
-Eigen::VectorXd AffineConstraints::expand(const Eigen::VectorXd &q) const
+Eigen::SparseMatrix<double> AffineConstraints::project(const Eigen::SparseMatrix<double> &A) const
 {
-  const Eigen::VectorXd tied = G_t_ * q;
-  Eigen::VectorXd       u    = Eigen::VectorXd::Zero(n_displacements());
-  for (int i = 0; i < n_displacements(); ++i)
-    if (column_[i] >= 0)
-      u[i] = q[column_[i]];
-    else if (tied_row_[i] >= 0)
-      u[i] = tied[tied_row_[i]];
-  return u;
+  const Eigen::SparseMatrix<double> G = G_;
+  const Eigen::SparseMatrix<double> P = G.transpose() * Eigen::SparseMatrix<double>(A * G);
+  return 0.5 * (P + Eigen::SparseMatrix<double>(P.transpose()));
 }
 
-Eigen::VectorXd AffineConstraints::gather(const Eigen::VectorXd &f) const
+SparseMatrix AffineConstraints::sum(const Extent &extent, int directions,
+                                    const std::function<std::vector<int>(int cell)> &nodes,
+                                    const std::function<Eigen::MatrixXd(int cell)>  &matrix) const
 {
-  Eigen::VectorXd tied = Eigen::VectorXd::Zero(G_t_.rows());
-  Eigen::VectorXd free = Eigen::VectorXd::Zero(n_coordinates_);
-  for (int i = 0; i < n_displacements(); ++i)
-    if (column_[i] >= 0)
-      free[column_[i]] = f[i];
-    else if (tied_row_[i] >= 0)
-      tied[tied_row_[i]] = f[i];
-  return free + G_t_.transpose() * tied;
-}
-
-namespace
-{
-
-/// Calls visit(displacement of the column, value) along row 3 node + d of A.
-template <typename Visit>
-void along_row(const BlockMatrix &A, const BlockMatrix::Rows &rows, int node, int d, const Visit &visit)
-{
-  for (int k = rows.begin[node]; k < rows.begin[node + 1]; ++k)
-    if (A.block_size() == 1)
-      visit(3 * rows.columns[k] + d, rows.values[k]);
-    else
-      for (int e = 0; e < 3; ++e)
-        visit(3 * rows.columns[k] + e, rows.values[9 * k + 3 * e + d]);
-}
-
-} // namespace
-
-Eigen::SparseMatrix<double> AffineConstraints::project_free(const BlockMatrix                 &A,
-                                                            const Eigen::SparseMatrix<double> &nearby) const
-{
-  // Free displacements keep their entries.  Column j is taken from row j, A being symmetric; both come ascending.
-  const BlockMatrix::Rows rows         = A.rows();
-  const auto              visit_column = [&](int i, const auto &visit)
+  Indices    indices;
+  const auto for_each_block = [&](int cell, const auto &visit)
   {
-    Eigen::SparseMatrix<double>::InnerIterator more(nearby, column_[i]);
-    along_row(A, rows, i / 3, i % 3,
-              [&](int displacement, double value)
-              {
-                const int j = column_[displacement];
-                if (j < 0)
-                  return;
-                for (; more && more.row() < j; ++more)
-                  visit(more.row(), more.value());
-                const bool both = more && more.row() == j;
-                visit(j, both ? value + more.value() : value);
-                if (both)
-                  ++more;
-              });
-    for (; more; ++more)
-      visit(more.row(), more.value());
-  };
-
-  Eigen::SparseMatrix<double> sum(n_coordinates_, n_coordinates_);
-  int                         count = 0;
-  for (int i = 0; i < n_displacements(); ++i)
-    if (column_[i] >= 0)
+    const std::vector<int> of_cell = nodes(cell);
+    for (int first = 0; first < 3; first += directions)
     {
-      visit_column(i, [&](int, double) { ++count; });
-      sum.outerIndexPtr()[column_[i] + 1] = count;
+      indices.clear();
+      for (const int node : of_cell)
+        for (int d = first; d < first + directions; ++d)
+          indices.push_back(index_[3 * node + d]);
+      visit();
     }
-  for (int j = n_free_; j < n_coordinates_; ++j)
-  {
-    count += nearby.outerIndexPtr()[j + 1] - nearby.outerIndexPtr()[j];
-    sum.outerIndexPtr()[j + 1] = count;
-  }
-
-  sum.resizeNonZeros(count);
-  int        k   = 0;
-  const auto put = [&](int row, double value)
-  {
-    sum.innerIndexPtr()[k] = row;
-    sum.valuePtr()[k++]    = value;
   };
-  for (int i = 0; i < n_displacements(); ++i)
-    if (column_[i] >= 0)
-      visit_column(i, put);
-  for (int j = n_free_; j < n_coordinates_; ++j)
-    for (Eigen::SparseMatrix<double>::InnerIterator more(nearby, j); more; ++more)
-      put(int(more.row()), more.value());
-  return sum;
-}
 
-Eigen::SparseMatrix<double> AffineConstraints::project(const BlockMatrix &A) const
-{
-  assert(3 * A.n_nodes() == n_displacements());
-  if (tied_.empty())
-    return project_free(A, Eigen::SparseMatrix<double>(n_coordinates_, n_coordinates_));
-
-  const BlockMatrix::Rows rows = A.rows();
-
-  // Tied displacements, rows G_t:  G^T A G = A_ff + Y G_t + (Y G_t)^T  with  Y = A_ft + 1/2 G_t^T A_tt.
-  std::vector<Eigen::Triplet<double>> of_free, of_tied;
-  for (std::size_t t = 0; t < tied_.size(); ++t)
-    along_row(A, rows, tied_[t] / 3, tied_[t] % 3,
-              [&](int j, double value)
-              {
-                if (column_[j] >= 0)
-                  of_free.emplace_back(column_[j], t, value);
-                else if (tied_row_[j] >= 0)
-                  of_tied.emplace_back(tied_row_[j], t, 0.5 * value);
-              });
-  const int                   n_tied = static_cast<int>(tied_.size());
-  Eigen::SparseMatrix<double> Y(n_coordinates_, n_tied), A_tt(n_tied, n_tied);
-  Y.setFromTriplets(of_free.begin(), of_free.end());
-  A_tt.setFromTriplets(of_tied.begin(), of_tied.end());
-  const Eigen::SparseMatrix<double> G_t = G_t_;
-  Y += Eigen::SparseMatrix<double>(G_t.transpose() * A_tt);
-  const Eigen::SparseMatrix<double> X  = Y * G_t;
-  const Eigen::SparseMatrix<double> XT = X.transpose();
-  return project_free(A, X + XT);
+  dealii::SparsityPattern pattern;
+  {
+    dealii::DynamicSparsityPattern pairs(n_coordinates() + lines_->of.n_constraints());
+    for (const int cell : extent.cells)
+      for_each_block(cell, [&] { lines_->of.add_entries_local_to_global(indices, pairs, false); });
+    pattern.copy_from(pairs);
+  }
+  dealii::SparseMatrix<double> A(pattern);
+  for (const int cell : extent.cells)
+  {
+    const Eigen::MatrixXd            of_cell = matrix(cell);
+    const dealii::FullMatrix<double> own(of_cell.rows(), of_cell.cols(), of_cell.data());
+    for_each_block(cell, [&] { lines_->of.distribute_local_to_global(own, indices, A); });
+  }
+  return taken_from(A, extent.coordinates);
 }
 
 } // namespace gestell::fem

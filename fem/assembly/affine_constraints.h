@@ -1,18 +1,22 @@
 #pragma once
 
-#include "fem/assembly/block_matrix.h"
-#include "fem/assembly/constraint_closure.h"
+#include "fem/values/sparse_matrix.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace gestell::fem
 {
+
+/// Linear combination  sum weight * value(index).
+using Combination = std::vector<std::pair<int, double>>;
 
 /**
  * Dependent nodal displacements u [3 n_nodes]. Values are numbered: first the displacements, 3 node + direction; then
@@ -25,7 +29,7 @@ struct MultipointConstraints
   std::vector<char>          held;     ///< [3 n_nodes] displacement is fixed to zero
   std::map<int, std::string> holder;   ///< name of the support of a node, for messages
   std::vector<int>           tie_of;   ///< [3 n_nodes] index into ties, or -1
-  std::vector<Combination>   ties;     ///< tied displacement as a combination of other values, see closed_ties()
+  std::vector<Combination>   ties;     ///< tied displacement as a combination of other values, tied before it or free
   std::vector<Combination>   measures; ///< new coordinate k as a functional of u; empty for coordinates of interfaces
   int                        n_interface_coordinates = 0; ///< the first of the new coordinates; they end up last in q
 
@@ -33,58 +37,62 @@ struct MultipointConstraints
   void tie(int displacement, Combination combination);
 };
 
+/// Cells that are summed, and the coordinates of the sum, ascending: all, or those of a part.
+struct Extent
+{
+  std::vector<int> cells, coordinates;
+};
+
 /**
- * The transformation  u = G q  to the coordinates q of the constrained frame.
+ * The transformation  u = G q  to the coordinates q of the constrained frame, by deal.II's AffineConstraints.
  *
  * q contains the displacements that are neither fixed nor tied, in the order of u; then inner coordinates of averaged
- * surfaces; then six coordinates for every interface, or three.  G has a one in most rows, so only the others are
- * stored.
+ * surfaces; then six coordinates for every interface, or three.
  */
 class AffineConstraints
 {
 public:
+  /// @throws std::invalid_argument for ties to displacements that are tied later.
   explicit AffineConstraints(const MultipointConstraints &constraints);
 
-  /// The same for a subset of nodes, as plain lists for sending: free coordinates first, in the order of the nodes;
-  /// ties in the order of the whole frame, so that project() sums in the same order.
-  struct Lists
-  {
-    int                 n_free = 0, n_coordinates = 0;
-    std::vector<int>    column, tied_row, tied; ///< as the members below
-    std::vector<int>    tie_begin, tie_column;  ///< compressed rows of the tied displacements
-    std::vector<double> tie_weight;
-    std::vector<int>    coordinates; ///< [n_coordinates] numbers in the whole frame
-  };
-  explicit AffineConstraints(const Lists &lists);
-  /// @param nodes ascending.
-  Lists of_nodes(const std::vector<int> &nodes) const;
+  const MultipointConstraints &constraints() const { return constraints_; }
 
-  int n_coordinates() const { return n_coordinates_; }
+  int n_coordinates() const { return static_cast<int>(G_.cols()); }
+  /// New coordinates follow the free displacements.
+  int n_free() const { return n_coordinates() - static_cast<int>(constraints_.measures.size()); }
   /// The last coordinates are those of the nodes of interfaces and masses.
-  int first_of_nodes() const { return n_coordinates_ - n_of_nodes_; }
-  int n_displacements() const { return static_cast<int>(column_.size()); }
+  int first_of_nodes() const { return n_coordinates() - constraints_.n_interface_coordinates; }
+  int n_displacements() const { return static_cast<int>(G_.rows()); }
 
   /// Index in q of a value as numbered in MultipointConstraints, or -1 if it is fixed or tied.
-  int coordinate(int value) const;
+  int coordinate(int value) const { return index_[value] < n_coordinates() ? index_[value] : -1; }
   /// Row of G as pairs (coordinate, weight).
   Combination row(int displacement) const;
 
-  Eigen::VectorXd expand(const Eigen::VectorXd &q) const; ///< u = G q
-  Eigen::VectorXd gather(const Eigen::VectorXd &f) const; ///< G^T f: forces on nodes to forces on coordinates
+  Eigen::VectorXd expand(const Eigen::VectorXd &q) const { return G_ * q; } ///< u = G q
+  /// G^T f: forces on nodes to forces on coordinates
+  Eigen::VectorXd gather(const Eigen::VectorXd &f) const { return G_.transpose() * f; }
 
-  /// G^T A G; a matrix with blocks of one stands for A (x) I_3.
-  Eigen::SparseMatrix<double> project(const BlockMatrix &A) const;
+  /// G^T A G, symmetric to the last bit as A is.
+  Eigen::SparseMatrix<double> project(const Eigen::SparseMatrix<double> &A) const;
+
+  /**
+   * G^T A G of the sum A of the matrices of cells, symmetric to the last bit.
+   *
+   * @param directions  3 for matrices [3 n x 3 n], with the displacements of a node beside each other; 1 for [n x n],
+   *                    the same for each direction
+   * @param nodes, matrix  of a cell
+   */
+  SparseMatrix sum(const Extent &extent, int directions, const std::function<std::vector<int>(int cell)> &nodes,
+                   const std::function<Eigen::MatrixXd(int cell)> &matrix) const;
 
 private:
-  /// G^T A G + `beside` [n x n], both symmetric, summed in one pass.
-  Eigen::SparseMatrix<double> project_free(const BlockMatrix &A, const Eigen::SparseMatrix<double> &nearby) const;
+  struct Lines;
 
-  std::vector<int>                             column_;     // [3 n_nodes] coordinate or -1
-  std::vector<int>                             new_column_; // coordinates of the new values
-  std::vector<int>                             tied_row_;   // [3 n_nodes] row of G_t or -1
-  std::vector<int>                             tied_;       // displacement of every row of G_t
-  Eigen::SparseMatrix<double, Eigen::RowMajor> G_t_;        // rows of the tied displacements
-  int                                          n_free_ = 0, n_coordinates_ = 0, n_of_nodes_ = 0;
+  MultipointConstraints                        constraints_;
+  std::vector<int>                             index_; // of every value: coordinate, or beyond them if it is not free
+  Eigen::SparseMatrix<double, Eigen::RowMajor> G_;
+  std::shared_ptr<const Lines>                 lines_; // of the dependent indices
 };
 
 } // namespace gestell::fem

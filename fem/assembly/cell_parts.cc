@@ -147,57 +147,6 @@ std::vector<idx_t> divided(Graph &graph, idx_t n_parts)
   return part;
 }
 
-/// Some cells of a mesh with nodes of their own numbering.
-struct Piece
-{
-  QuadraticMesh    mesh;
-  CellMaterials    materials;
-  std::vector<int> nodes; ///< of the whole mesh, ascending
-};
-
-std::vector<int> nodes_of(const QuadraticMesh &mesh, const std::vector<int> &cells)
-{
-  std::vector<char> taken(mesh.n_nodes(), 0);
-  for (const int cell : cells)
-    for (int a = 0; a < mesh.n_nodes_of(cell); ++a)
-      taken[mesh.nodes(cell)[a]] = 1;
-  std::vector<int> nodes;
-  for (int node = 0; node < mesh.n_nodes(); ++node)
-    if (taken[node])
-      nodes.push_back(node);
-  return nodes;
-}
-
-Piece piece_of(const QuadraticMesh &mesh, const CellMaterials &materials, const std::vector<int> &cells)
-{
-  Piece            piece{{}, {materials.materials, {}}, nodes_of(mesh, cells)};
-  std::vector<int> number(mesh.n_nodes(), -1);
-  for (std::size_t i = 0; i < piece.nodes.size(); ++i)
-  {
-    number[piece.nodes[i]] = int(i);
-    piece.mesh.points.push_back(mesh.points[piece.nodes[i]]);
-  }
-  for (const int cell : cells)
-  {
-    const int *nodes = mesh.nodes(cell);
-    const auto add   = [&](auto &list)
-    {
-      std::transform(nodes, nodes + mesh.n_nodes_of(cell), list.emplace_back().begin(),
-                     [&](int i) { return number[i]; });
-    };
-    if (!mesh.curved.empty() && mesh.kind(cell) == CellKind::tetrahedron)
-      piece.mesh.curved.push_back(mesh.curved[cell]);
-    if (mesh.kind(cell) == CellKind::tetrahedron)
-      add(piece.mesh.cells);
-    else if (mesh.kind(cell) == CellKind::hexahedron)
-      add(piece.mesh.hexahedra);
-    else
-      add(piece.mesh.prisms);
-    piece.materials.of_cell.push_back(materials.of_cell[cell]);
-  }
-  return piece;
-}
-
 } // namespace
 
 CellParts::CellParts(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
@@ -221,18 +170,27 @@ CellParts::CellParts(const QuadraticMesh &mesh, const CellMaterials &materials, 
 
 std::vector<int> CellParts::coordinates(int part) const
 {
-  return affine_.of_nodes(nodes_of(mesh_, cells_[part])).coordinates;
+  std::vector<char> node_is_in(mesh_.n_nodes(), 0), moves(affine_.n_coordinates(), 0);
+  for (const int cell : cells_[part])
+    for (int a = 0; a < mesh_.n_nodes_of(cell); ++a)
+      node_is_in[mesh_.nodes(cell)[a]] = 1;
+  for (int i = 0; i < affine_.n_displacements(); ++i)
+    if (node_is_in[i / 3])
+      for (const auto &[coordinate, weight] : affine_.row(i))
+        moves[coordinate] = 1;
+  std::vector<int> result;
+  for (int i = 0; i < affine_.n_coordinates(); ++i)
+    if (moves[i])
+      result.push_back(i);
+  return result;
 }
 
 PartMatrices CellParts::matrices(int part) const
 {
-  const Piece              piece = piece_of(mesh_, materials_, cells_[part]);
-  AffineConstraints::Lists lists = affine_.of_nodes(piece.nodes);
-  const AffineConstraints  affine(lists);
-  PartMatrices             result;
-  result.C           = affine.project(assemble_stiffness(piece.mesh, piece.materials));
-  result.M           = affine.project(assemble_mass(piece.mesh, piece.materials));
-  result.coordinates = std::move(lists.coordinates);
+  Extent       extent{cells_[part], coordinates(part)};
+  PartMatrices result{
+      assemble_stiffness(mesh_, materials_, affine_, extent), assemble_mass(mesh_, materials_, affine_, extent), {}};
+  result.coordinates = std::move(extent.coordinates);
   return result;
 }
 

@@ -15,7 +15,7 @@ namespace gestell::fem
 struct PartMatrices
 {
   SparseMatrix     C, M;        // [n_p x n_p]
-  std::vector<int> coordinates; ///< [n_p] of the frame
+  std::vector<int> coordinates; ///< [n_p] of the frame, ascending
 };
 
 /**

@@ -126,6 +126,7 @@ FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, co
   bool            divides = false;
   double          mass    = 0.; // above the plane, minus that of nodes whose loads the row contains
   Eigen::VectorXd row     = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
+  CellValues      values(mesh, CellPoints::rule);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
     const int   *nodes      = mesh.nodes(cell);
@@ -135,15 +136,15 @@ FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, co
     const bool   touches    = stands_out && std::any_of(nodes, nodes + n, [&](int node) { return below[node]; });
     if (!touches && share == (stands_out ? 1. : 0.))
       continue;
-    const Eigen::VectorXd nodal = cell_mass(mesh, cell, materials[cell]).rowwise().sum();
+    const Eigen::VectorXd nodal = mass_matrix(values.of(cell), materials[cell].rho).rowwise().sum();
     mass += share * nodal.sum();
     if (stands_out)
       for (int a = 0; a < n; ++a)
         mass -= below[nodes[a]] ? 0. : nodal[a];
     if (!touches)
       continue;
-    divides               = true;
-    const CellStiffness C = cell_stiffness(mesh, cell, materials[cell]);
+    divides                 = true;
+    const Eigen::MatrixXd C = stiffness_matrix(values.of(cell), materials[cell]);
     for (int a = 0; a < n; ++a)
       if (below[nodes[a]])
         for (int b = 0; b < n; ++b)

@@ -16,16 +16,20 @@ Eigen::Map<const Eigen::Vector3d> point(const QuadraticMesh &mesh, int node)
 
 } // namespace
 
-NodalMasses nodal_masses(const QuadraticMesh &mesh, const BlockMatrix &M, const Eigen::Vector3d &origin)
+NodalMasses nodal_masses(const QuadraticMesh &mesh, const CellMaterials &materials, const Eigen::Vector3d &origin)
 {
-  const BlockMatrix::Rows rows = M.rows();
-  NodalMasses             masses{Eigen::VectorXd::Zero(M.n_nodes()), Eigen::Matrix3Xd::Zero(3, M.n_nodes())};
-  for (int i = 0; i < M.n_nodes(); ++i)
-    for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
+  NodalMasses masses{Eigen::VectorXd::Zero(mesh.n_nodes()), Eigen::Matrix3Xd::Zero(3, mesh.n_nodes())};
+  CellValues  values(mesh, CellPoints::rule);
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+  {
+    const Eigen::MatrixXd M      = mass_matrix(values.of(cell), materials[cell].rho);
+    const Eigen::MatrixXd moment = (positions(mesh, cell).colwise() - origin) * M;
+    for (Eigen::Index a = 0; a < M.cols(); ++a)
     {
-      masses.mass[i] += rows.values[k];
-      masses.moment.col(i) += rows.values[k] * (point(mesh, rows.columns[k]) - origin);
+      masses.mass[mesh.nodes(cell)[a]] += M.col(a).sum();
+      masses.moment.col(mesh.nodes(cell)[a]) += moment.col(a);
     }
+  }
   return masses;
 }
 
@@ -63,8 +67,9 @@ std::vector<FrameFacts::SolidMass> solid_masses(const Mesh &mesh, const Quadrati
   std::vector<FrameFacts::SolidMass> parts;
   for (std::size_t solid = 0; solid < mesh.solids.size(); ++solid)
     parts.push_back({mesh.solids[solid], materials.materials[solid].name});
+  CellValues values(quadratic, CellPoints::rule);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
-    parts[materials.of_cell[cell]].mass += cell_mass(quadratic, cell, materials[cell]).sum();
+    parts[materials.of_cell[cell]].mass += materials[cell].rho * values.of(cell).weight.sum();
   return parts;
 }
 
@@ -76,27 +81,20 @@ Eigen::Vector3d middle_of_nodes(const QuadraticMesh &mesh)
   return middle;
 }
 
-RigidEnergies rigid_energies(const QuadraticMesh &mesh, const BlockMatrix &C, const Eigen::Vector3d &middle,
-                             const std::vector<int> &nodes)
+double rigid_energy_share(const QuadraticMesh &mesh, const CellMaterials &materials, const Eigen::Vector3d &middle)
 {
-  using Motions                = Eigen::Matrix<double, 3, 6>;
-  const BlockMatrix::Rows rows = C.rows();
-  RigidEnergies           result;
-  for (const int i : nodes)
+  Eigen::Array<double, 6, 1> energy = Eigen::Array<double, 6, 1>::Zero(), cancelling = energy;
+  CellValues                 values(mesh, CellPoints::rule);
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
-    Motions force = Motions::Zero(), terms = Motions::Zero();
-    for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k)
-    {
-      const Eigen::Map<const Eigen::Matrix3d> block(rows.values + 9 * k);
-      const Motions                           u = rigid_motions_of_point(mesh.points[rows.columns[k]], middle);
-      force += block * u;
-      terms += block.cwiseAbs() * u.cwiseAbs();
-    }
-    const Motions u = rigid_motions_of_point(mesh.points[i], middle);
-    result.energy += u.cwiseProduct(force).colwise().sum();
-    result.cancelling += u.cwiseAbs().cwiseProduct(terms).colwise().sum();
+    const Eigen::MatrixXd                    C = stiffness_matrix(values.of(cell), materials[cell]);
+    Eigen::Matrix<double, Eigen::Dynamic, 6> u(C.rows(), 6);
+    for (Eigen::Index a = 0; 3 * a < C.rows(); ++a)
+      u.middleRows<3>(3 * a) = rigid_motions_of_point(mesh.points[mesh.nodes(cell)[a]], middle);
+    energy += u.cwiseProduct(C * u).colwise().sum().transpose().array();
+    cancelling += u.cwiseAbs().cwiseProduct(C.cwiseAbs() * u.cwiseAbs()).colwise().sum().transpose().array();
   }
-  return result;
+  return (energy.abs() / cancelling).maxCoeff();
 }
 
 } // namespace gestell::fem

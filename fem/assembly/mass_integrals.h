@@ -1,7 +1,6 @@
 #pragma once
 
 #include "fem/assembly/affine_constraints.h"
-#include "fem/assembly/block_matrix.h"
 #include "fem/assembly/cell_materials.h"
 #include "fem/assembly/quadratic_mesh.h"
 #include "fem/values/frame_matrices.h"
@@ -19,7 +18,7 @@ struct NodalMasses
   Eigen::VectorXd  mass;   ///< [n_nodes] int rho N_a dV [kg]
   Eigen::Matrix3Xd moment; ///< [3 x n_nodes] int rho N_a (x - origin) dV [kg m]
 };
-NodalMasses nodal_masses(const QuadraticMesh &mesh, const BlockMatrix &M, const Eigen::Vector3d &origin);
+NodalMasses nodal_masses(const QuadraticMesh &mesh, const CellMaterials &materials, const Eigen::Vector3d &origin);
 
 /// Mass, centre and inertia of all cells: M carries linear fields exactly, so  S = sum_ab M_ab x_a x_b^T  is
 /// int rho x x^T dV and  J = tr(S) I - S.
@@ -33,21 +32,10 @@ Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const Affin
 std::vector<FrameFacts::SolidMass> solid_masses(const Mesh &mesh, const QuadraticMesh &quadratic,
                                                 const CellMaterials &materials);
 
-/// Energies u^T C u of the six rigid motions, and |u|^T |C| |u|, whose terms cancel in them.
-struct RigidEnergies
-{
-  Eigen::Matrix<double, 6, 1> energy     = Eigen::Matrix<double, 6, 1>::Zero();
-  Eigen::Matrix<double, 6, 1> cancelling = Eigen::Matrix<double, 6, 1>::Zero();
-
-  /// Largest quotient: of rounding size unless an element is wrong.
-  double share() const { return (energy.array().abs() / cancelling.array()).maxCoeff(); }
-};
+/// Largest quotient of the energies u^T C u of the six rigid motions about `middle` and of sum |u|^T |C_K| |u| over the
+/// cells K, whose terms cancel in them: of rounding size unless an element is wrong.
+double rigid_energy_share(const QuadraticMesh &mesh, const CellMaterials &materials, const Eigen::Vector3d &middle);
 
 Eigen::Vector3d middle_of_nodes(const QuadraticMesh &mesh);
-
-/// Of the rigid motions about `middle`: the part of these nodes, all of whose rows of C are whole.
-/// @param C of the free frame, without foundations.
-RigidEnergies rigid_energies(const QuadraticMesh &mesh, const BlockMatrix &C, const Eigen::Vector3d &middle,
-                             const std::vector<int> &nodes);
 
 } // namespace gestell::fem

@@ -1,5 +1,6 @@
 #include "fem/assembly/quadratic_mesh.h"
 
+#include "fem/assembly/finite_elements.h"
 #include "fem/assembly/reference_cell.h"
 #include "fem/mesh/cell_measures.h"
 #include "fem/mesh/mesh_quality.h"
@@ -7,10 +8,6 @@
 #include "fem/values/message_text.h"
 
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_simplex_p.h>
-#include <deal.II/fe/fe_wedge_p.h>
-#include <deal.II/grid/tria.h>
 #include <deal.II/hp/fe_collection.h>
 
 #include <algorithm>
@@ -42,7 +39,7 @@ void require_sound(const Mesh &mesh)
           " times the edges there and must be positive; mesh again, or order its corners as gmsh does.");
 }
 
-dealii::Triangulation<3> triangulation(const Mesh &mesh)
+std::shared_ptr<const Grid> grid_of(const Mesh &mesh)
 {
   std::vector<dealii::Point<3>> points;
   points.reserve(mesh.points.size());
@@ -58,29 +55,23 @@ dealii::Triangulation<3> triangulation(const Mesh &mesh)
     for (std::size_t k = 0; k < node_of_corner.size(); ++k)
       cells.back().vertices[node_of_corner[k]] = mesh.corners(i)[k];
   }
-  dealii::Triangulation<3> result;
-  result.create_triangulation(points, cells, dealii::SubCellData());
-  return result;
+  auto grid = std::make_shared<Grid>();
+  grid->cells.create_triangulation(points, cells, dealii::SubCellData());
+  return grid;
 }
 
 /// Prisms must come first: FE_WedgeP of deal.II 9.4 knows which functions it shares; the others do not.
 void distribute(dealii::DoFHandler<3> &nodes, const Mesh &mesh)
 {
-  const dealii::FE_WedgeP<3>   prism(2);
-  const dealii::FE_SimplexP<3> tetrahedron(2);
-  const dealii::FE_Q<3>        hexahedron(2);
-  if (mesh.only_tetrahedra())
-    return nodes.distribute_dofs(tetrahedron);
-  if (mesh.cells.empty() && mesh.prisms.empty())
-    return nodes.distribute_dofs(hexahedron);
-  if (mesh.cells.empty() && mesh.hexahedra.empty())
-    return nodes.distribute_dofs(prism);
+  if (mesh.n_cells() == static_cast<int>(std::max({mesh.cells.size(), mesh.hexahedra.size(), mesh.prisms.size()})))
+    return nodes.distribute_dofs(finite_element(mesh.kind(0)));
   for (const auto &cell : nodes.active_cell_iterators())
   {
     const CellKind kind = mesh.kind(cell->index());
     cell->set_active_fe_index(kind == CellKind::prism ? 0 : kind == CellKind::tetrahedron ? 1 : 2);
   }
-  nodes.distribute_dofs(dealii::hp::FECollection<3>(prism, tetrahedron, hexahedron));
+  nodes.distribute_dofs(dealii::hp::FECollection<3>(
+      finite_element(CellKind::prism), finite_element(CellKind::tetrahedron), finite_element(CellKind::hexahedron)));
 }
 
 int *nodes_of(QuadraticMesh &mesh, int cell)
@@ -256,11 +247,11 @@ QuadraticMesh quadratic_mesh(const Mesh &mesh)
   require_sound(mesh);
   petsc_session(); // deal.II requests its rank from MPI
 
-  const dealii::Triangulation<3> cells = triangulation(mesh);
-  dealii::DoFHandler<3>          handler(cells);
+  QuadraticMesh result;
+  result.grid = grid_of(mesh);
+  dealii::DoFHandler<3> handler(result.grid->cells);
   distribute(handler, mesh);
 
-  QuadraticMesh result;
   result.node_of.assign(mesh.points.size(), -1);
   read_numbers(handler, mesh, result);
   place_nodes(mesh, result);

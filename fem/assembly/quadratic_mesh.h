@@ -1,15 +1,17 @@
 #pragma once
 
-#include "fem/assembly/node_lists.h"
 #include "fem/values/mesh.h"
 
 #include <Eigen/Core>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace gestell::fem
 {
+
+struct Grid;
 
 /**
  * Nodes of quadratic cells (10 of a tetrahedron, 27 of a hexahedron, 18 of a prism): corners of a mesh, middles of its
@@ -28,6 +30,7 @@ struct QuadraticMesh
   std::vector<std::array<int, 6>>  skin; ///< corners a b c, then the middles of ab, bc, ca; same order as Mesh::skin
   std::vector<std::array<int, 9>>  skin_quads; ///< FE_Q(2) of two dimensions; same order as Mesh::skin_quads
   std::vector<int>                 node_of;    ///< node at point i of the mesh, or -1 if no cell uses it
+  std::shared_ptr<const Grid>      grid;       ///< the cells as deal.II's Triangulation
 
   int  n_nodes() const { return static_cast<int>(points.size()); }
   int  n_cells() const { return static_cast<int>(cells.size() + hexahedra.size() + prisms.size()); }
@@ -52,7 +55,6 @@ struct QuadraticMesh
            : j < hexahedra.size() ? hexahedra[j].data()
                                   : prisms[j - hexahedra.size()].data();
   }
-  std::vector<NodeLists> lists() const { return {cells, hexahedra, prisms}; }
 };
 
 /// Nodes of a cell as columns [3 x n_nodes].

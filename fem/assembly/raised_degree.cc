@@ -1,13 +1,11 @@
 #include "fem/assembly/raised_degree.h"
 
+#include "fem/assembly/elasticity.h"
 #include "fem/assembly/reference_cell.h"
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace gestell::fem
 {
@@ -64,7 +62,7 @@ private:
   int node_at(const Eigen::Vector3d &xi) const
   {
     Eigen::Index node = 0;
-    (cell_.nodes.xi.colwise() - xi).colwise().norm().minCoeff(&node);
+    (cell_.nodes.colwise() - xi).colwise().norm().minCoeff(&node);
     return static_cast<int>(node);
   }
   /// Corner of the simplex, at a height of the prism.
@@ -107,7 +105,7 @@ private:
     line[0]     = -1.;
     line[d + 1] = 2.;
     for (int node = 0; node < cell_.n_nodes; ++node)
-      if (const Eigen::Vector3d xi = cell_.nodes.xi.col(node); std::abs(xi[d] - 0.5) < 0.1)
+      if (const Eigen::Vector3d xi = cell_.nodes.col(node); std::abs(xi[d] - 0.5) < 0.1)
       {
         const Eigen::Vector3d half = 0.5 * Eigen::Vector3d::Unit(d);
         functions.push_back({node, line, {node_at(xi - half), node, node_at(xi + half)}, true, {node}});
@@ -116,216 +114,106 @@ private:
   const ReferenceCell &cell_;
 };
 
-/// Quadratics and cubics of the reference cell at a point of a rule.
-struct Point
-{
-  double                       weight;
-  Eigen::VectorXd              N;  // [n]
-  Eigen::Matrix<double, -1, 3> dN; // [n x 3]
-};
-
-Point with_cubics(const ReferenceCell::Points &points, int p, const std::vector<Local> &functions)
-{
-  const auto                         n = points.N.rows(), m = Eigen::Index(functions.size());
-  const Eigen::VectorXd              N  = points.N.col(p);
-  const Eigen::Matrix<double, -1, 3> dN = points.dN.middleCols<3>(3 * p);
-  Point point{points.weight[p], Eigen::VectorXd(n + m), Eigen::Matrix<double, -1, 3>(n + m, 3)};
-  point.N.head(n)     = N;
-  point.dN.topRows(n) = dN;
-  for (Eigen::Index k = 0; k < m; ++k)
-  {
-    const auto  &own    = functions[k];
-    const double l      = own.line[0] + own.line.tail<3>().dot(points.xi.col(p));
-    point.N[n + k]      = l * N[own.amid];
-    point.dN.row(n + k) = l * dN.row(own.amid) + N[own.amid] * own.line.tail<3>().transpose();
-  }
-  return point;
-}
-
-/// Quadrature, exact for the stiffness of straight cells and nearly so for the mass, with small cubic terms.
-std::vector<Point> rule(CellKind kind, const std::vector<Local> &functions)
-{
-  const ReferenceCell::Points &finer = reference_cell(kind).finer;
-  std::vector<Point>           points;
-  for (int p = 0; p < finer.size(); ++p)
-    points.push_back(with_cubics(finer, p, functions));
-  return points;
-}
-
-struct CellMatrices
-{
-  Eigen::Matrix<double, -1, -1, Eigen::RowMajor> C, M; // [3 n x 3 n], [n x n]
-};
-
-CellMatrices cell_matrices(const Eigen::Matrix3Xd &X, const std::vector<Point> &points, const Material &material)
-{
-  const auto      n = points.front().N.size(), n_points = Eigen::Index(points.size()), n_nodes = X.cols();
-  Eigen::MatrixXd gradients(3 * n, n_points), values(n, n_points);
-  for (Eigen::Index p = 0; p < n_points; ++p)
-  {
-    const Point           &point = points[p];
-    const Eigen::Matrix3d  J     = X * point.dN.topRows(n_nodes);
-    const double           root  = std::sqrt(point.weight * std::abs(J.determinant()));
-    const Eigen::Matrix3Xd G     = root * (point.dN * J.inverse()).transpose();
-    gradients.col(p)             = G.reshaped();
-    values.col(p)                = root * point.N;
-  }
-  CellMatrices          result;
-  const Eigen::MatrixXd D      = gradients * gradients.transpose(); // blocks int grad N_a grad N_b^T dV
-  const double          lambda = material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu));
-  const double          mu     = material.E / (2. * (1. + material.nu));
-  result.M                     = material.rho * (values * values.transpose());
-  result.C.resize(3 * n, 3 * n);
-  for (Eigen::Index a = 0; a < n; ++a)
-    for (Eigen::Index b = 0; b < n; ++b)
-    {
-      const Eigen::Matrix3d own = D.block<3, 3>(3 * a, 3 * b);
-      result.C.block<3, 3>(3 * a, 3 * b) =
-          lambda * own + mu * own.transpose() + mu * own.trace() * Eigen::Matrix3d::Identity();
-    }
-  return result;
-}
-
-/// Adds functions as further nodes after those of the mesh.
-class ExtendedFrame
+/// Quadratics and cubics of a cell.
+class RaisedCells
 {
 public:
-  ExtendedFrame(const QuadraticMesh &mesh, const AffineConstraints &affine)
-      : mesh_(mesh), functions_(mesh), lists_(lists_of(mesh, affine))
+  RaisedCells(const QuadraticMesh &mesh, const CubicFunctions &cubics)
+      : mesh_(mesh), cubics_(cubics), values_(mesh, CellPoints::finer)
   {
-    n_free_ = lists_.n_free;
-    for (int &column : lists_.tie_column)
-      column = shifted(column);
-    place_.assign(affine.n_coordinates(), -1);
-    for (std::size_t k = 0; k < lists_.coordinates.size(); ++k)
-      place_[lists_.coordinates[k]] = int(k);
-    int n = int(lists_.coordinates.size());
-    for (int &place : place_) // of coordinates that move no node
-      place = shifted(place < 0 ? n++ : place);
-    n_added_ = 0;
-    extend(affine);
-    for (int &column : lists_.tie_column)
-      column = column < 0 ? -1 - column + n_added_ : column;
-    for (int &place : place_)
-      place = place < 0 ? -1 - place + n_added_ : place;
-    lists_.n_free        = n_free_ + n_added_;
-    lists_.n_coordinates = n + n_added_;
   }
 
-  RaisedFrame frame(const CellMaterials &materials, const SparseMatrix &C, const SparseMatrix &M) const
+  /// Functions follow the nodes of the mesh as further nodes.
+  std::vector<int> nodes(int cell) const
   {
-    const CellKind   all[] = {CellKind::tetrahedron, CellKind::hexahedron, CellKind::prism};
-    std::vector<int> begin, nodes; // of the cells with the functions as further nodes
-    for (int cell = 0; cell < mesh_.n_cells(); ++cell)
-    {
-      begin.push_back(static_cast<int>(nodes.size()));
-      nodes.insert(nodes.end(), mesh_.nodes(cell), mesh_.nodes(cell) + mesh_.n_nodes_of(cell));
-      for (const auto &number : functions_.numbers(cell))
-        nodes.push_back(mesh_.n_nodes() + number.first);
-    }
-    begin.push_back(static_cast<int>(nodes.size()));
-    std::vector<NodeLists>                 lists;
-    std::map<CellKind, std::vector<Point>> points;
-    for (const CellKind kind : all)
-      points[kind] = rule(kind, functions_.of_cell(kind));
-    for (int cell = 0; cell < mesh_.n_cells(); ++cell)
-      lists.push_back({&nodes[begin[cell]], 1, begin[cell + 1] - begin[cell]});
+    std::vector<int> nodes(mesh_.nodes(cell), mesh_.nodes(cell) + mesh_.n_nodes_of(cell));
+    for (const auto &[function, sign] : cubics_.numbers(cell))
+      nodes.push_back(mesh_.n_nodes() + function);
+    return nodes;
+  }
 
-    const int   n_all = mesh_.n_nodes() + functions_.size();
-    BlockMatrix C_cells(3, n_all, lists), M_cells(1, n_all, lists);
-    for (int cell = 0; cell < mesh_.n_cells(); ++cell)
+  const PointValues &of(int cell)
+  {
+    const auto &[weight, N, dN]      = values_.of(cell);
+    const Eigen::Matrix3Xd   &xi     = reference_cell(mesh_.kind(cell)).nodes;
+    const std::vector<Local> &locals = CubicFunctions::of_cell(mesh_.kind(cell));
+    const Eigen::Index        n = N.rows(), n_all = n + Eigen::Index(locals.size());
+    all_.weight = weight;
+    all_.N.resize(n_all, N.cols());
+    all_.dN.resize(n_all, dN.cols());
+    all_.N.topRows(n)  = N;
+    all_.dN.topRows(n) = dN;
+    for (std::size_t k = 0; k < locals.size(); ++k)
     {
-      CellMatrices own = cell_matrices(positions(mesh_, cell), points[mesh_.kind(cell)], materials[cell]);
-      turn(functions_.numbers(cell), mesh_.n_nodes_of(cell), own);
-      C_cells.add(lists[cell].nodes, lists[cell].n_nodes, own.C.data());
-      M_cells.add(lists[cell].nodes, lists[cell].n_nodes, own.M.data());
+      // The quadratics carry l, linear in xi, with its values at their nodes.
+      const Local             &own = locals[k];
+      const Eigen::RowVectorXd at_nodes =
+          cubics_.numbers(cell)[k].second * ((own.line.tail<3>().transpose() * xi).array() + own.line[0]).matrix();
+      const Eigen::RowVectorXd l = at_nodes * N, dl = at_nodes * dN;
+      all_.N.row(n + Eigen::Index(k)) = l.cwiseProduct(N.row(own.amid));
+      for (Eigen::Index p = 0; p < N.cols(); ++p)
+        all_.dN.row(n + Eigen::Index(k)).segment<3>(3 * p) =
+            l[p] * dN.row(own.amid).segment<3>(3 * p) + N(own.amid, p) * dl.segment<3>(3 * p);
     }
-    C_cells.finish();
-    M_cells.finish();
-    SparseMatrix all_C = extended(std::move(C_cells), C);
-    return {std::move(all_C), extended(std::move(M_cells), M), place_};
+    return all_;
   }
 
 private:
-  static AffineConstraints::Lists lists_of(const QuadraticMesh &mesh, const AffineConstraints &affine)
-  {
-    std::vector<int> nodes(mesh.n_nodes());
-    std::iota(nodes.begin(), nodes.end(), 0);
-    return affine.of_nodes(nodes);
-  }
-  /// Marks coordinates that move up for the functions, whose number is not yet known.
-  int shifted(int coordinate) const { return coordinate < n_free_ ? coordinate : -1 - coordinate; }
+  const QuadraticMesh  &mesh_;
+  const CubicFunctions &cubics_;
+  CellValues            values_;
+  PointValues           all_;
+};
 
-  void extend(const AffineConstraints &affine)
-  {
-    for (int k = 0; k < functions_.size(); ++k)
-      for (int d = 0; d < 3; ++d)
-      {
-        const auto &with = functions_.vanish_with(k);
-        const bool  held =
-            std::all_of(with.begin(), with.end(), [&](int node) { return affine.coordinate(3 * node + d) < 0; });
-        lists_.column.push_back(held ? -1 : n_free_ + n_added_++);
-        lists_.tied_row.push_back(-1);
-      }
-  }
-
-  bool is_added(Eigen::Index i) const { return i >= n_free_ && i < n_free_ + n_added_; }
-
-  /// What the cells add to A, the matrix of the frame, in its coordinates. Computed in place: a copy would be the
-  /// largest object in memory.
-  SparseMatrix extended(BlockMatrix cells, const SparseMatrix &A) const
-  {
-    SparseMatrix sum = projected(std::move(cells));
-    for (Eigen::Index j = 0; j < sum.cols(); ++j)
-      for (SparseMatrix::InnerIterator entry(sum, j); entry; ++entry)
-        if (!is_added(entry.row()) && !is_added(j))
-          entry.valueRef() = 0.;
-    SparseMatrix beyond(sum.rows(), sum.cols()); // masses and foundations that join what no cell does
-    for (Eigen::Index i = 0; i < A.cols(); ++i)
-      replace(A, i, sum, beyond);
-    if (beyond.nonZeros() > 0)
-      sum += beyond;
-    return sum;
-  }
-
-  /// The cells' matrix is not needed any more.
-  SparseMatrix projected(BlockMatrix cells) const { return AffineConstraints(lists_).project(cells); }
-
-  /// The numbers of column i of A at their places.
-  void replace(const SparseMatrix &A, Eigen::Index i, SparseMatrix &sum, SparseMatrix &beyond) const
-  {
-    const int *const begin = sum.innerIndexPtr() + sum.outerIndexPtr()[place_[i]],
-                     *end  = sum.innerIndexPtr() + sum.outerIndexPtr()[place_[i] + 1];
-    for (SparseMatrix::InnerIterator a(A, i); a; ++a)
+/// Values of the functions come after the displacements; those that vanish with fixed or tied nodes are held.
+MultipointConstraints with_cubics(const AffineConstraints &affine, const CubicFunctions &cubics)
+{
+  MultipointConstraints result    = affine.constraints();
+  const int             first_new = result.first_new();
+  for (int k = 0; k < cubics.size(); ++k)
+    for (int d = 0; d < 3; ++d)
     {
-      const int *const at = std::lower_bound(begin, end, place_[a.row()]);
-      if (at != end && *at == place_[a.row()])
-        sum.valuePtr()[at - sum.innerIndexPtr()] = a.value();
+      const auto &with = cubics.vanish_with(k);
+      result.held.push_back(
+          std::all_of(with.begin(), with.end(), [&](int node) { return affine.coordinate(3 * node + d) < 0; }));
+    }
+  result.tie_of.resize(result.held.size(), -1);
+  for (Combination &tie : result.ties)
+    for (auto &[value, weight] : tie)
+      if (value >= first_new)
+        value += result.first_new() - first_new;
+  return result;
+}
+
+/// The matrix A of the frame where the quadratics meet, foundations and masses included, and the cubics' own of
+/// `cells`. Computed in place: a copy would be the largest object in memory.
+SparseMatrix with_frame(SparseMatrix cells, const SparseMatrix &A, const std::vector<int> &place)
+{
+  std::vector<char> is_added(cells.cols(), 1);
+  for (const int i : place)
+    is_added[i] = 0;
+  for (Eigen::Index j = 0; j < cells.cols(); ++j)
+    for (SparseMatrix::InnerIterator entry(cells, j); entry; ++entry)
+      if (!is_added[entry.row()] && !is_added[j])
+        entry.valueRef() = 0.;
+  SparseMatrix beyond(cells.rows(), cells.cols()); // masses and foundations that join what no cell does
+  for (Eigen::Index j = 0; j < A.cols(); ++j)
+  {
+    const int *const begin = cells.innerIndexPtr() + cells.outerIndexPtr()[place[j]],
+                     *end  = cells.innerIndexPtr() + cells.outerIndexPtr()[place[j] + 1];
+    for (SparseMatrix::InnerIterator a(A, j); a; ++a)
+    {
+      const int *const at = std::lower_bound(begin, end, place[a.row()]);
+      if (at != end && *at == place[a.row()])
+        cells.valuePtr()[at - cells.innerIndexPtr()] = a.value();
       else
-        beyond.coeffRef(place_[a.row()], place_[i]) = a.value();
+        beyond.coeffRef(place[a.row()], place[j]) = a.value();
     }
   }
-
-  /// Functions that the cell counts against their direction.
-  static void turn(const std::vector<std::pair<int, double>> &numbers, int n_nodes, CellMatrices &own)
-  {
-    for (std::size_t k = 0; k < numbers.size(); ++k)
-      if (numbers[k].second < 0.)
-      {
-        const Eigen::Index i = n_nodes + Eigen::Index(k);
-        own.C.middleRows<3>(3 * i) *= -1.;
-        own.C.middleCols<3>(3 * i) *= -1.;
-        own.M.row(i) *= -1.;
-        own.M.col(i) *= -1.;
-      }
-  }
-
-  const QuadraticMesh     &mesh_;
-  CubicFunctions           functions_;
-  AffineConstraints::Lists lists_;
-  std::vector<int>         place_;
-  int                      n_free_ = 0, n_added_ = 0;
-};
+  if (beyond.nonZeros() > 0)
+    cells += beyond;
+  return cells;
+}
 
 } // namespace
 
@@ -367,7 +255,19 @@ double raised_coordinates(const QuadraticMesh &mesh, double n)
 RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
                          const SparseMatrix &C, const SparseMatrix &M)
 {
-  return ExtendedFrame(mesh, affine).frame(materials, C, M);
+  const CubicFunctions    cubics(mesh);
+  const AffineConstraints raised(with_cubics(affine, cubics));
+  RaisedFrame             result;
+  for (int i = 0; i < affine.n_coordinates(); ++i)
+    result.place.push_back(i < affine.n_free() ? i : i + raised.n_free() - affine.n_free());
+  RaisedCells  cells(mesh, cubics);
+  const Extent all   = whole(mesh, raised);
+  const auto   nodes = [&](int cell) { return cells.nodes(cell); };
+  const auto   C_of  = [&](int cell) { return stiffness_matrix(cells.of(cell), materials[cell]); };
+  const auto   M_of  = [&](int cell) { return mass_matrix(cells.of(cell), materials[cell].rho); };
+  result.C           = with_frame(raised.sum(all, 3, nodes, C_of), C, result.place);
+  result.M           = with_frame(raised.sum(all, 1, nodes, M_of), M, result.place);
+  return result;
 }
 
 } // namespace gestell::fem

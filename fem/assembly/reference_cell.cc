@@ -1,9 +1,6 @@
 #include "fem/assembly/reference_cell.h"
 
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_simplex_p.h>
-#include <deal.II/fe/fe_wedge_p.h>
+#include "fem/assembly/finite_elements.h"
 
 #include <Eigen/LU>
 
@@ -17,36 +14,12 @@ namespace gestell::fem
 namespace
 {
 
-using Element    = dealii::FiniteElement<3>;
-using Quadrature = dealii::Quadrature<3>;
-using Point      = dealii::Point<3>;
-
-ReferenceCell::Points tabulate(const Element &element, const std::vector<Point> &points,
-                               const std::vector<double> &weights = {})
+Eigen::Matrix3Xd columns(const std::vector<dealii::Point<3>> &points)
 {
-  const auto            n = Eigen::Index(element.dofs_per_cell), n_points = Eigen::Index(points.size());
-  ReferenceCell::Points result;
-  result.xi.resize(3, n_points);
-  result.weight = Eigen::Map<const Eigen::VectorXd>(weights.data(), Eigen::Index(weights.size()));
-  result.N.resize(n, n_points);
-  result.dN.resize(n, 3 * n_points);
-  for (Eigen::Index k = 0; k < n_points; ++k)
-    for (Eigen::Index a = 0; a < n; ++a)
-    {
-      const auto slope = element.shape_grad(static_cast<unsigned int>(a), points[k]);
-      result.N(a, k)   = element.shape_value(static_cast<unsigned int>(a), points[k]);
-      for (int d = 0; d < 3; ++d)
-      {
-        result.xi(d, k)         = points[k][d];
-        result.dN(a, 3 * k + d) = slope[d];
-      }
-    }
-  return result;
-}
-
-ReferenceCell::Points tabulate(const Element &element, const Quadrature &rule)
-{
-  return tabulate(element, rule.get_points(), rule.get_weights());
+  Eigen::Matrix3Xd xi(3, points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+    xi.col(Eigen::Index(k)) << points[k][0], points[k][1], points[k][2];
+  return xi;
 }
 
 std::vector<std::vector<int>> faces_of(const dealii::ReferenceCell &cell)
@@ -91,8 +64,8 @@ std::vector<std::vector<int>> corners_between(const ReferenceCell &cell)
                                    {
                                      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
                                      for (const int corner : set)
-                                       middle += cell.nodes.xi.col(corner) / static_cast<double>(set.size());
-                                     return (middle - cell.nodes.xi.col(a)).norm() < 1e-9;
+                                       middle += cell.nodes.col(corner) / static_cast<double>(set.size());
+                                     return (middle - cell.nodes.col(a)).norm() < 1e-9;
                                    }));
   return result;
 }
@@ -107,80 +80,40 @@ Eigen::VectorXd monomials(const Eigen::Vector3d &x, Eigen::Index n)
 
 Eigen::MatrixXd extrapolation(const ReferenceCell &cell)
 {
-  const Eigen::Index n = cell.samples.size();
+  const Eigen::Index n = cell.samples.cols();
   Eigen::MatrixXd    at_samples(n, n), at_corners(n, cell.n_corners);
   for (Eigen::Index k = 0; k < n; ++k)
-    at_samples.col(k) = monomials(cell.samples.xi.col(k), n);
+    at_samples.col(k) = monomials(cell.samples.col(k), n);
   for (Eigen::Index k = 0; k < cell.n_corners; ++k)
-    at_corners.col(k) = monomials(cell.nodes.xi.col(k), n);
+    at_corners.col(k) = monomials(cell.nodes.col(k), n);
   return at_samples.lu().solve(at_corners);
 }
 
-ReferenceCell tabulated(const Element &element, const Quadrature &rule, const Quadrature &finer,
-                        const std::vector<Point> &samples)
+ReferenceCell make_cell(CellKind kind)
 {
-  ReferenceCell cell;
-  cell.n_nodes   = static_cast<int>(element.dofs_per_cell);
-  cell.n_corners = static_cast<int>(element.reference_cell().n_vertices());
+  const dealii::ReferenceCell shape = finite_element(kind).reference_cell();
+  ReferenceCell               cell;
+  cell.n_nodes   = static_cast<int>(finite_element(kind).n_dofs_per_cell());
+  cell.n_corners = static_cast<int>(shape.n_vertices());
   cell.node_of_corner.resize(cell.n_corners);
   std::iota(cell.node_of_corner.begin(), cell.node_of_corner.end(), 0);
-  cell.faces      = faces_of(element.reference_cell());
-  cell.nodes      = tabulate(element, element.get_unit_support_points());
+  if (kind == CellKind::hexahedron)
+    cell.node_of_corner = {0, 1, 3, 2, 4, 5, 7, 6};
+  cell.faces      = faces_of(shape);
+  cell.nodes      = columns(finite_element(kind).get_unit_support_points());
+  cell.samples    = columns(quadrature(kind, 2).get_points());
   cell.between    = corners_between(cell);
-  cell.rule       = tabulate(element, rule);
-  cell.finer      = tabulate(element, finer);
-  cell.samples    = tabulate(element, samples);
   cell.to_corners = extrapolation(cell);
   return cell;
-}
-
-/// Rules of Witherden and Vincent with parameter n integrate degree 2 n - 1 exactly: masses are of degree 4.
-ReferenceCell tetrahedron()
-{
-  constexpr double                          near = 0.58541019662496845, far = 0.1381966011250105; // rule of degree 2
-  const dealii::QWitherdenVincentSimplex<3> rule(3);
-  return tabulated(dealii::FE_SimplexP<3>(2), rule, rule,
-                   {{far, far, far}, {near, far, far}, {far, near, far}, {far, far, near}});
-}
-
-ReferenceCell hexahedron()
-{
-  ReferenceCell cell =
-      tabulated(dealii::FE_Q<3>(2), dealii::QGauss<3>(3), dealii::QGauss<3>(4), dealii::QGauss<3>(2).get_points());
-  cell.node_of_corner = {0, 1, 3, 2, 4, 5, 7, 6};
-  return cell;
-}
-
-/// A rule of the triangle times one of Gauss.
-Quadrature across(const dealii::Quadrature<2> &triangle, const dealii::Quadrature<1> &line)
-{
-  std::vector<Point>  points;
-  std::vector<double> weights;
-  for (unsigned int k = 0; k < line.size(); ++k)
-    for (unsigned int i = 0; i < triangle.size(); ++i)
-    {
-      points.emplace_back(triangle.point(i)[0], triangle.point(i)[1], line.point(k)[0]);
-      weights.push_back(triangle.weight(i) * line.weight(k));
-    }
-  return {points, weights};
-}
-
-/// Gradients of quadratics are linear on a triangle: three points inside carry them.
-ReferenceCell prism()
-{
-  const std::vector<dealii::Point<2>>       inside = {{1. / 6., 1. / 6.}, {2. / 3., 1. / 6.}, {1. / 6., 2. / 3.}};
-  const dealii::QWitherdenVincentSimplex<2> triangle(3);
-  const dealii::Quadrature<2>               three(inside, std::vector<double>(3, 1. / 6.));
-  return tabulated(dealii::FE_WedgeP<3>(2), across(triangle, dealii::QGauss<1>(3)),
-                   across(triangle, dealii::QGauss<1>(4)), across(three, dealii::QGauss<1>(2)).get_points());
 }
 
 } // namespace
 
 const ReferenceCell &reference_cell(CellKind kind)
 {
-  static const ReferenceCell four = tetrahedron(), eight = hexahedron(), six = prism();
-  return kind == CellKind::tetrahedron ? four : kind == CellKind::hexahedron ? eight : six;
+  static const ReferenceCell all[] = {make_cell(CellKind::tetrahedron), make_cell(CellKind::hexahedron),
+                                      make_cell(CellKind::prism)};
+  return all[std::size_t(kind)];
 }
 
 } // namespace gestell::fem

@@ -1,6 +1,7 @@
 #include "fem/assembly/sparse_sum.h"
 
 #include <algorithm>
+#include <cassert>
 #include <vector>
 
 namespace gestell::fem
@@ -8,11 +9,7 @@ namespace gestell::fem
 
 void add(SparseMatrix &A, const Eigen::SparseMatrix<double> &S)
 {
-  if (!A.isCompressed() || !S.isCompressed())
-  {
-    A = SparseMatrix::Base(A + S);
-    return;
-  }
+  assert(A.isCompressed() && S.isCompressed());
   std::vector<int> place; // in A of every entry of S
   place.reserve(S.nonZeros());
   const int *rows = A.innerIndexPtr();

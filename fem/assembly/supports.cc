@@ -1,5 +1,8 @@
 #include "fem/assembly/supports.h"
 
+#include "fem/assembly/elasticity.h"
+
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -43,17 +46,28 @@ void require_valid(const Support &support)
                                 " acts in no direction; fix x, y or z, or give a foundation a stiffness [N/m].");
 }
 
-/// Row of C summed over the nodes that a clamped support fixes in direction d.
-Eigen::VectorXd clamped_row(const std::vector<char> &counted, const BlockMatrix &C)
+/// Rows of C of the cells, summed over the displacements of each output [3 n_nodes x n_outputs].
+/// @param output_of  a displacement, or -1
+Eigen::MatrixXd summed_rows(const std::vector<int> &output_of, int n_outputs, const QuadraticMesh &mesh,
+                            const CellMaterials &materials)
 {
-  const BlockMatrix::Rows rows = C.rows();
-  Eigen::VectorXd         row  = Eigen::VectorXd::Zero(counted.size());
-  for (std::size_t i = 0; i < counted.size(); ++i)
-    if (counted[i])
-      for (int k = rows.begin[i / 3]; k < rows.begin[i / 3 + 1]; ++k)
-        for (int e = 0; e < 3; ++e)
-          row[3 * rows.columns[k] + e] += rows.values[9 * k + 3 * e + i % 3];
-  return row;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(Eigen::Index(output_of.size()), n_outputs);
+  CellValues      values(mesh, CellPoints::rule);
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+  {
+    std::vector<int> own; // displacements
+    for (int a = 0; a < mesh.n_nodes_of(cell); ++a)
+      for (int d = 0; d < 3; ++d)
+        own.push_back(3 * mesh.nodes(cell)[a] + d);
+    if (std::all_of(own.begin(), own.end(), [&](int i) { return output_of[i] < 0; }))
+      continue;
+    const Eigen::MatrixXd C = stiffness_matrix(values.of(cell), materials[cell]);
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (const int output = output_of[own[i]]; output >= 0)
+        for (std::size_t j = 0; j < own.size(); ++j)
+          rows(own[j], output) += C(Eigen::Index(j), Eigen::Index(i));
+  }
+  return rows;
 }
 
 /// sum_d k_d a_d a_d^T
@@ -140,43 +154,32 @@ void hold(const std::vector<SupportedPatch> &supports, MultipointConstraints &co
       }
 }
 
-void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, BlockMatrix &matrix)
+Eigen::SparseMatrix<double> foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals,
+                                        const AffineConstraints &affine)
 {
+  std::vector<Eigen::Triplet<double>> entries;
   for (const auto &[support, patch] : supports)
     if (support.kind == SupportKind::foundation)
     {
       const Eigen::Matrix3d per_area = directed(support, totals) / patch.area;
       for (int column = 0; column < patch.S.outerSize(); ++column)
         for (Eigen::SparseMatrix<double>::InnerIterator entry(patch.S, column); entry; ++entry)
-        {
-          const Eigen::Matrix3d block = entry.value() * per_area;
-          matrix.add_block(patch.nodes[entry.row()], patch.nodes[column], block.data());
-        }
+          for (int d = 0; d < 3; ++d)
+            for (int e = 0; e < 3; ++e)
+              entries.emplace_back(3 * patch.nodes[entry.row()] + d, 3 * patch.nodes[column] + e,
+                                   entry.value() * per_area(d, e));
     }
-  matrix.finish();
+  Eigen::SparseMatrix<double> A(affine.n_displacements(), affine.n_displacements());
+  A.setFromTriplets(entries.begin(), entries.end());
+  return affine.project(A);
 }
 
-BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, int n_nodes)
-{
-  std::vector<std::array<int, 6>> faces;
-  std::vector<std::array<int, 9>> quads;
-  for (const auto &[support, patch] : supports)
-    if (support.kind == SupportKind::foundation)
-    {
-      faces.insert(faces.end(), patch.faces.begin(), patch.faces.end());
-      quads.insert(quads.end(), patch.quads.begin(), patch.quads.end());
-    }
-  BlockMatrix B(3, n_nodes, {faces, quads});
-  add_foundations(supports, totals, B);
-  return B;
-}
-
-std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
-                                        const AffineConstraints &affine, const Eigen::VectorXd &nodal_mass,
-                                        double rayleigh_stiffness)
+std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const QuadraticMesh &mesh,
+                                        const CellMaterials &materials, const AffineConstraints &affine,
+                                        const Eigen::VectorXd &nodal_mass, double rayleigh_stiffness)
 {
   const int                n = affine.n_displacements();
-  std::vector<char>        counted_before(n, 0);
+  std::vector<int>         clamped_at(n, -1); // output of the first support that holds the displacement
   std::vector<FrameOutput> outputs;
   for (const SupportedPatch &supported : supports)
     for (int d = 0; d < 3; ++d)
@@ -189,20 +192,24 @@ std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &suppo
         output.on_v = affine.gather(foundation_row(supported, d, &Support::damping, n));
       }
       else
-      {
-        std::vector<char> counted(n, 0);
         for (const int node : patch.nodes)
-          if (support.held[d] && !counted_before[3 * node + d])
+          if (support.held[d] && clamped_at[3 * node + d] < 0)
           {
-            counted[3 * node + d] = counted_before[3 * node + d] = 1;
+            clamped_at[3 * node + d] = static_cast<int>(outputs.size());
             output.under_acceleration[d] -= nodal_mass[node];
           }
-        output.on_q = affine.gather(clamped_row(counted, C));
-        output.on_v = rayleigh_stiffness * output.on_q;
-        output.on_q += affine.gather(held_foundations_row(supports, &Support::stiffness, counted));
-        output.on_v += affine.gather(held_foundations_row(supports, &Support::damping, counted));
-      }
       outputs.push_back(std::move(output));
+    }
+  const Eigen::MatrixXd rows = summed_rows(clamped_at, int(outputs.size()), mesh, materials);
+  for (std::size_t k = 0; k < outputs.size(); ++k)
+    if (supports[k / 3].support.kind == SupportKind::clamped)
+    {
+      std::vector<char> counted(n, 0);
+      std::transform(clamped_at.begin(), clamped_at.end(), counted.begin(), [k](int at) { return at == int(k); });
+      const Eigen::VectorXd of_cells = affine.gather(rows.col(Eigen::Index(k)));
+      outputs[k].on_q = of_cells + affine.gather(held_foundations_row(supports, &Support::stiffness, counted));
+      outputs[k].on_v =
+          rayleigh_stiffness * of_cells + affine.gather(held_foundations_row(supports, &Support::damping, counted));
     }
   return outputs;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fem/assembly/affine_constraints.h"
-#include "fem/assembly/block_matrix.h"
+#include "fem/assembly/cell_materials.h"
 #include "fem/assembly/surface_patch.h"
 #include "fem/values/frame_matrices.h"
 #include "fem/values/frame_specification.h"
@@ -30,14 +30,13 @@ std::vector<SupportedPatch> find_supports(const Mesh &mesh, const QuadraticMesh 
 void hold(const std::vector<SupportedPatch> &supports, MultipointConstraints &constraints);
 
 /**
- * Adds elastic foundations:  sum_d (k_d / A) a_d a_d^T int N N^T dA,  k_d the total stiffness [N/m] along the axis a_d.
+ * Elastic foundations in the coordinates of the frame:  sum_d (k_d / A) a_d a_d^T int N N^T dA,  k_d the total
+ * stiffness [N/m] along the axis a_d.
  *
  * @param totals Support::stiffness (into C) or Support::damping (into B).
  */
-void add_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, BlockMatrix &matrix);
-
-/// Only the foundations: with their damping, this is B of the free frame.
-BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals, int n_nodes);
+Eigen::SparseMatrix<double> foundations(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals,
+                                        const AffineConstraints &affine);
 
 /**
  * Forces of supports on the frame, "support.NAME.x", ".y", ".z" [N]; a foot pressed down gives z > 0.
@@ -49,12 +48,11 @@ BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Ve
  *               moves only with the elements at the clamp, is not contained, nor alpha M u'.  Damping by modal ratios
  *               has no force on a support.  A node of several supports counts for the first.
  *
- * @param C                   of the free frame, without foundations.
  * @param nodal_mass          [nodes] sums of the rows of M [kg].
  * @param rayleigh_stiffness  beta [s] of all cells.
  */
-std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const BlockMatrix &C,
-                                        const AffineConstraints &affine, const Eigen::VectorXd &nodal_mass,
-                                        double rayleigh_stiffness);
+std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const QuadraticMesh &mesh,
+                                        const CellMaterials &materials, const AffineConstraints &affine,
+                                        const Eigen::VectorXd &nodal_mass, double rayleigh_stiffness);
 
 } // namespace gestell::fem

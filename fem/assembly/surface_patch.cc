@@ -1,6 +1,6 @@
 #include "fem/assembly/surface_patch.h"
 
-#include "fem/assembly/reference_integrals.h"
+#include "fem/assembly/face_rules.h"
 #include "fem/values/nearest_name.h"
 
 #include <Eigen/Geometry>
@@ -43,17 +43,6 @@ std::set<int> triangles_of(const Mesh &mesh, const std::vector<std::string> &sur
   return triangles;
 }
 
-/// Whether a side is off the middle of its ends by more than rounding.
-bool is_curved(const QuadraticMesh &mesh, const std::array<int, 6> &face)
-{
-  const auto node = [&](int k) { return Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data()); };
-  for (int k = 0; k < 3; ++k)
-    if (const Eigen::Vector3d side = node((k + 1) % 3) - node(k);
-        (node(3 + k) - node(k) - 0.5 * side).norm() > 1e-10 * side.norm())
-      return true;
-  return false;
-}
-
 /// Area, int x dA and int N_a N_b dA of a face of n nodes.
 template <int n>
 struct FaceIntegrals
@@ -79,6 +68,7 @@ FaceIntegrals<int(n)> integrals(const QuadraticMesh &mesh, const std::array<int,
     result.moment += dA * X * point.N;
     result.mass += dA * point.N * point.N.transpose();
   }
+  result.mass = 0.5 * (result.mass + result.mass.transpose()).eval(); // symmetric to the last bit
   return result;
 }
 
@@ -136,26 +126,21 @@ SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int
   };
   for (const std::array<int, 6> &face : patch.faces)
   {
-    if (!mesh.curved.empty() && is_curved(mesh, face))
+    if (is_half(face))
     {
-      const auto triangle = integrals(mesh, face, reference_integrals().triangle);
-      patch.area += triangle.area;
-      patch.centroid += triangle.moment;
-      add(face, triangle.mass);
+      const double area = triangle_area(mesh, face);
+      patch.area += area;
+      for (int k = 0; k < 3; ++k)
+        patch.centroid += area / 3. * Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data());
       continue;
     }
-    const double area = triangle_area(mesh, face);
-    patch.area += area;
-    for (int k = 0; k < 3; ++k)
-      patch.centroid += area / 3. * Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data());
-    if (!is_half(face))
-      add(face, (2. * area * reference_integrals().triangle_mass).eval());
+    const auto triangle = integrals(mesh, face, face_rules().triangle);
+    patch.area += triangle.area;
+    patch.centroid += triangle.moment;
+    add(face, triangle.mass);
   }
   for (const std::array<int, 9> &quad : patch.quads)
-  {
-    const Eigen::Matrix<double, 9, 9> mass = integrals(mesh, quad, reference_integrals().quadrilateral).mass;
-    add(quad, (0.5 * (mass + mass.transpose())).eval());
-  }
+    add(quad, integrals(mesh, quad, face_rules().quadrilateral).mass);
   patch.centroid /= patch.area;
   patch.S.resize(patch.nodes.size(), patch.nodes.size());
   patch.S.setFromTriplets(entries.begin(), entries.end());

@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 namespace gestell::fem
@@ -47,25 +46,20 @@ AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &mate
                             CellSums of)
 {
   const Eigen::Vector3d middle = middle_of_nodes(mesh);
+  const NodalMasses     masses = nodal_masses(mesh, materials, middle);
   AssembledMatrices     sums;
-  sums.C.resize(affine.n_coordinates(), affine.n_coordinates());
-  sums.M            = sums.C;
+  sums.whole        = mass_integrals(mesh, masses, middle);
+  sums.nodal_mass   = masses.mass;
   sums.rigid_energy = FrameFacts().rigid_energy;
-  // Each full matrix goes as soon as it is projected: two of them at once would set the peak of the memory.
+  sums.C.resize(affine.n_coordinates(), affine.n_coordinates());
+  sums.M = sums.C;
   if (of == CellSums::of_frame)
   {
-    std::vector<int> nodes(mesh.n_nodes());
-    std::iota(nodes.begin(), nodes.end(), 0);
-    const BlockMatrix C = assemble_stiffness(mesh, materials);
-    sums.rigid_energy   = rigid_energies(mesh, C, middle, nodes).share();
-    sums.C              = affine.project(C);
+    const Extent all  = whole(mesh, affine);
+    sums.rigid_energy = rigid_energy_share(mesh, materials, middle);
+    sums.C            = assemble_stiffness(mesh, materials, affine, all);
+    sums.M            = assemble_mass(mesh, materials, affine, all);
   }
-  const BlockMatrix M      = assemble_mass(mesh, materials);
-  const NodalMasses masses = nodal_masses(mesh, M, middle);
-  if (of == CellSums::of_frame)
-    sums.M = affine.project(M);
-  sums.whole      = mass_integrals(mesh, masses, middle);
-  sums.nodal_mass = masses.mass;
   return sums;
 }
 
@@ -164,58 +158,22 @@ void weigh(const Ingredients &of, const MassProperties &cells, const Eigen::Vect
   Eigen::Map<Eigen::Vector3d>(frame.centre.data()) = frame.facts.whole.centre;
 }
 
-/// C of the cells at clamped supports; its rows at clamped nodes equal those of the whole matrix.
-BlockMatrix stiffness_at_supports(const Ingredients &of)
-{
-  std::vector<char> clamped(of.mesh.n_nodes(), 0);
-  for (const SupportedPatch &supported : of.supports)
-    if (supported.support.kind == SupportKind::clamped)
-      for (const int node : supported.patch.nodes)
-        clamped[node] = 1;
-  QuadraticMesh near;
-  CellMaterials materials{of.materials.materials, {}};
-  near.points = of.mesh.points;
-  for (int cell = 0; cell < of.mesh.n_cells(); ++cell)
-  {
-    const int *nodes = of.mesh.nodes(cell);
-    if (std::none_of(nodes, nodes + of.mesh.n_nodes_of(cell), [&](int node) { return clamped[node]; }))
-      continue;
-    if (!of.mesh.curved.empty())
-      near.curved.push_back(of.mesh.curved[cell]);
-    if (const CellKind kind = of.mesh.kind(cell); kind == CellKind::tetrahedron)
-      std::copy_n(nodes, 10, near.cells.emplace_back().begin());
-    else if (kind == CellKind::hexahedron)
-      std::copy_n(nodes, 27, near.hexahedra.emplace_back().begin());
-    else
-      std::copy_n(nodes, 18, near.prisms.emplace_back().begin());
-    materials.of_cell.push_back(of.materials.of_cell[cell]);
-  }
-  return assemble_stiffness(near, materials);
-}
-
-void add_support_forces(const Ingredients &of, const BlockMatrix &C, const Eigen::VectorXd &nodal_mass,
-                        FrameMatrices &frame)
-{
-  for (FrameOutput &output : support_forces(of.supports, C, of.affine, nodal_mass, of.specification.rayleigh_stiffness))
-    frame.outputs.push_back(std::move(output));
-}
-
 /// M, B, C and what is read off them.
 void add_matrices(const Ingredients &of, CellSums cells, FrameMatrices &frame)
 {
   const auto &[specification, mesh, materials, supports, affine, nodes] = of;
-  const auto foundations                                                = [&](Vector3 Support::*totals)
-  { return of.affine.project(assemble_foundations(of.supports, totals, of.mesh.n_nodes())); };
-  const Eigen::SparseMatrix<double> C_beside = foundations(&Support::stiffness);
+  const Eigen::SparseMatrix<double> C_beside = foundations(supports, &Support::stiffness, affine);
   const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, affine.n_coordinates());
 
   AssembledMatrices sums   = sum_cells(mesh, materials, affine, cells);
   frame.C                  = std::move(sums.C);
   frame.M                  = std::move(sums.M);
   frame.facts.rigid_energy = sums.rigid_energy;
-  add_support_forces(of, stiffness_at_supports(of), sums.nodal_mass, frame);
+  for (FrameOutput &output :
+       support_forces(supports, mesh, materials, affine, sums.nodal_mass, specification.rayleigh_stiffness))
+    frame.outputs.push_back(std::move(output));
   weigh(of, sums.whole, sums.nodal_mass, frame);
-  frame.B = foundations(&Support::damping);
+  frame.B = foundations(supports, &Support::damping, affine);
   if (specification.rayleigh_stiffness > 0.)
     add(frame.B, specification.rayleigh_stiffness * frame.C);
   if (specification.rayleigh_mass > 0.)

@@ -16,16 +16,14 @@ namespace
 {
 
 /// eta_K^2 for every field: both stresses are polynomials that nodal values determine.
-Eigen::RowVectorXd of_cell(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u,
-                           const Stresses &smooth)
+Eigen::RowVectorXd of_cell(const QuadraticMesh &mesh, const Material &material, int cell, CellValues &at_nodes,
+                           CellValues &rule, const NodalFields &u, const Stresses &smooth)
 {
-  Stresses error    = nodal_stresses(mesh, material, cell, u);
-  Material unit     = material;
-  unit.rho          = 1.;
-  const auto volume = cell_mass(mesh, cell, unit);
+  Stresses error(2 * u.rows(), mesh.n_nodes_of(cell));
+  stresses_at(at_nodes.of(cell), mesh, material, cell, u, error);
   for (Eigen::Index a = 0; a < error.cols(); ++a)
     error.col(a) -= smooth.col(mesh.nodes(cell)[a]);
-  const Stresses     weighted = error * volume;
+  const Stresses     weighted = error * mass_matrix(rule.of(cell), 1.);
   Eigen::RowVectorXd eta2     = Eigen::RowVectorXd::Zero(u.rows() / 3);
   for (Eigen::Index field = 0; field < eta2.size(); ++field)
     for (Eigen::Index a = 0; a < error.cols(); ++a)
@@ -57,6 +55,7 @@ Eigen::MatrixXd MeshError::of_cells(const Eigen::Ref<const Eigen::MatrixXd> &q) 
 {
   const std::vector<std::vector<int>> alike = cells_alike(materials_, mesh_.n_cells());
   Eigen::MatrixXd                     result(mesh_.n_cells(), q.cols());
+  CellValues                          at_nodes(mesh_, CellPoints::nodes), rule(mesh_, CellPoints::rule);
   constexpr int                       fields_once = 6; // fields whose stresses are in memory at the same time
   for (int first = 0; first < q.cols(); first += fields_once)
   {
@@ -69,7 +68,7 @@ Eigen::MatrixXd MeshError::of_cells(const Eigen::Ref<const Eigen::MatrixXd> &q) 
       const Material &material = materials_[cells.front()];
       const Stresses  smooth   = recovered_stresses(mesh_, material, cells, u);
       for (const int cell : cells)
-        result.row(cell).segment(first, fields) = of_cell(mesh_, material, cell, u, smooth);
+        result.row(cell).segment(first, fields) = of_cell(mesh_, material, cell, at_nodes, rule, u, smooth);
     }
   }
   return result;

@@ -3,7 +3,6 @@
 #include "fem/assembly/reference_cell.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <limits>
@@ -39,24 +38,6 @@ Stress stress_of(const Eigen::Matrix3d &gradient, const Material &material)
   return s;
 }
 
-/// Stresses of all fields at points of a cell, one in each column of the result.
-void stresses_at(const ReferenceCell::Points &points, const QuadraticMesh &mesh, const Material &material, int cell,
-                 const NodalFields &u, Eigen::Ref<Stresses> result)
-{
-  const int  *nodes = mesh.nodes(cell);
-  NodalFields of_cell(u.rows(), mesh.n_nodes_of(cell));
-  for (int a = 0; a < of_cell.cols(); ++a)
-    of_cell.col(a) = u.col(nodes[a]);
-  const Eigen::MatrixXd slopes = of_cell * points.dN; // du_i / dxi_d of point k in column 3 k + d
-  const Eigen::MatrixXd J      = positions(mesh, cell) * points.dN;
-  for (int k = 0; k < points.size(); ++k)
-  {
-    const Eigen::Matrix3d inverse = J.block<3, 3>(0, 3 * k).inverse();
-    for (int field = 0; field < u.rows() / 3; ++field)
-      result.col(k).segment<6>(6 * field) = stress_of(slopes.block<3, 3>(3 * field, 3 * k) * inverse, material);
-  }
-}
-
 Eigen::Vector3d point(const QuadraticMesh &mesh, int node)
 {
   return Eigen::Map<const Eigen::Vector3d>(mesh.points[node].data());
@@ -76,13 +57,14 @@ Samples sample(const QuadraticMesh &mesh, const Material &material, const std::v
 {
   Samples result;
   for (const int cell : cells)
-    result.begin.push_back(result.begin.back() + reference_cell(mesh.kind(cell)).samples.size());
+    result.begin.push_back(result.begin.back() + reference_cell(mesh.kind(cell)).samples.cols());
   result.x.resize(3, result.begin.back());
   result.stress.resize(2 * u.rows(), result.begin.back());
+  CellValues values(mesh, CellPoints::samples);
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    const auto  first = result.begin[i], n = result.begin[i + 1] - first;
-    const auto &samples           = reference_cell(mesh.kind(cells[i])).samples;
+    const auto         first = result.begin[i], n = result.begin[i + 1] - first;
+    const PointValues &samples    = values.of(cells[i]);
     result.x.middleCols(first, n) = positions(mesh, cells[i]) * samples.N;
     stresses_at(samples, mesh, material, cells[i], u, result.stress.middleCols(first, n));
   }
@@ -223,12 +205,17 @@ private:
 
 } // namespace
 
-Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u)
+void stresses_at(const PointValues &points, const QuadraticMesh &mesh, const Material &material, int cell,
+                 const NodalFields &u, Eigen::Ref<Stresses> result)
 {
-  const auto &nodes = reference_cell(mesh.kind(cell)).nodes;
-  Stresses    result(2 * u.rows(), nodes.size());
-  stresses_at(nodes, mesh, material, cell, u, result);
-  return result;
+  const int  *nodes = mesh.nodes(cell);
+  NodalFields of_cell(u.rows(), mesh.n_nodes_of(cell));
+  for (int a = 0; a < of_cell.cols(); ++a)
+    of_cell.col(a) = u.col(nodes[a]);
+  const Eigen::MatrixXd gradients = of_cell * points.dN; // du_i / dx_d of point k in column 3 k + d
+  for (Eigen::Index k = 0; k < points.N.cols(); ++k)
+    for (Eigen::Index field = 0; field < u.rows() / 3; ++field)
+      result.col(k).segment<6>(6 * field) = stress_of(gradients.block<3, 3>(3 * field, 3 * k), material);
 }
 
 Stresses recovered_stresses(const QuadraticMesh &mesh, const Material &material, const std::vector<int> &cells,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/assembly/quadratic_mesh.h"
+#include "fem/assembly/cell_values.h"
 #include "fem/values/frame_specification.h"
 
 #include <Eigen/Core>
@@ -16,8 +16,9 @@ using Stresses = Eigen::MatrixXd;
 /// Displacements [m] of several fields: three rows per field, one column per node of the mesh.
 using NodalFields = Eigen::MatrixXd;
 
-/// Stresses at the nodes of one cell, from this cell alone [6 f x nodes].
-Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int cell, const NodalFields &u);
+/// Stresses at points of one cell, from this cell alone [6 f x points].
+void stresses_at(const PointValues &points, const QuadraticMesh &mesh, const Material &material, int cell,
+                 const NodalFields &u, Eigen::Ref<Stresses> result);
 
 /**
  * Continuous stresses sigma* of the cells of one material at their nodes [6 f x n_nodes], 0 at others: superconvergent

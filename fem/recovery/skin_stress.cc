@@ -1,8 +1,7 @@
 #include "fem/recovery/skin_stress.h"
 
+#include "fem/assembly/cell_values.h"
 #include "fem/assembly/reference_cell.h"
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <map>
@@ -82,47 +81,46 @@ struct CornerGradients
   std::vector<Weights> of_corner;
 };
 
-CornerGradients tetrahedron_gradients(const QuadraticMesh &mesh, int cell)
+/// Of tetrahedra at the corners themselves; else carried on to them from the points where stresses are best.
+class CornerValues
 {
-  const Eigen::Matrix<double, 3, 10> X      = positions(mesh, cell);
-  const Eigen::Matrix3d              J      = X.middleCols<3>(1).colwise() - X.col(0);
-  const Eigen::MatrixXd             &slopes = reference_cell(CellKind::tetrahedron).nodes.dN;
-  CornerGradients                    result;
-  result.volume = std::abs(J.determinant()) / 6.;
-  for (int corner = 0; corner < 4; ++corner)
+public:
+  explicit CornerValues(const QuadraticMesh &mesh)
+      : mesh_(mesh), nodes_(mesh, CellPoints::nodes), samples_(mesh, CellPoints::samples), rule_(mesh, CellPoints::rule)
   {
-    const Eigen::Matrix<double, 10, 3> dN = slopes.middleCols<3>(3 * corner);
-    result.of_corner.push_back(dN * (mesh.is_curved(cell) ? Eigen::Matrix3d(X * dN) : J).inverse());
   }
-  return result;
-}
 
-/// Carried on to the corners from the points where the stresses of these elements are best.
-CornerGradients extrapolated_gradients(const QuadraticMesh &mesh, int cell)
-{
-  const ReferenceCell &reference = reference_cell(mesh.kind(cell));
-  const auto           X         = positions(mesh, cell);
-  CornerGradients      result;
-  result.of_corner.assign(reference.n_corners, CornerGradients::Weights::Zero(reference.n_nodes, 3));
-  for (int k = 0; k < reference.samples.size(); ++k)
+  CornerGradients of(int cell)
   {
-    const CornerGradients::Weights dN     = reference.samples.dN.middleCols<3>(3 * k);
-    const Eigen::Matrix3d          J      = X * dN;
-    const CornerGradients::Weights slopes = dN * J.inverse();
-    for (int corner = 0; corner < reference.n_corners; ++corner)
-      result.of_corner[corner] += reference.to_corners(k, corner) * slopes;
+    const ReferenceCell &reference = reference_cell(mesh_.kind(cell));
+    CornerGradients      result;
+    result.volume = rule_.of(cell).weight.sum();
+    if (mesh_.kind(cell) == CellKind::tetrahedron)
+    {
+      const Eigen::MatrixXd &dN = nodes_.of(cell).dN;
+      for (int corner = 0; corner < reference.n_corners; ++corner)
+        result.of_corner.emplace_back(dN.middleCols<3>(3 * corner));
+      return result;
+    }
+    const Eigen::MatrixXd &dN = samples_.of(cell).dN;
+    result.of_corner.assign(reference.n_corners, CornerGradients::Weights::Zero(reference.n_nodes, 3));
+    for (Eigen::Index k = 0; k < reference.samples.cols(); ++k)
+      for (int corner = 0; corner < reference.n_corners; ++corner)
+        result.of_corner[corner] += reference.to_corners(k, corner) * dN.middleCols<3>(3 * k);
+    return result;
   }
-  for (int k = 0; k < reference.rule.size(); ++k)
-    result.volume += reference.rule.weight[k] * (X * reference.rule.dN.middleCols<3>(3 * k)).determinant();
-  return result;
-}
+
+private:
+  const QuadraticMesh &mesh_;
+  CellValues           nodes_, samples_, rule_;
+};
 
 /// Gathers the rows of a StressRecovery cell by cell.
 class Gatherer
 {
 public:
   Gatherer(const QuadraticMesh &mesh, const std::function<const Material &(int)> &material_of)
-      : mesh_(mesh), material_of_(material_of), column_of_(mesh.n_nodes(), -1)
+      : mesh_(mesh), material_of_(material_of), values_(mesh), column_of_(mesh.n_nodes(), -1)
   {
     place_points();
     for (int cell = 0; cell < mesh.n_cells(); ++cell)
@@ -191,8 +189,7 @@ private:
     const int  n_corners = reference_cell(mesh_.kind(cell)).n_corners;
     if (std::none_of(nodes, nodes + n_corners, [&](int node) { return on_skin_[node]; }))
       return;
-    const CornerGradients gradients = mesh_.kind(cell) == CellKind::tetrahedron ? tetrahedron_gradients(mesh_, cell)
-                                                                                : extrapolated_gradients(mesh_, cell);
+    const CornerGradients gradients = values_.of(cell);
     const Lame            moduli    = lame(material_of_(cell));
     for (int corner = 0; corner < n_corners; ++corner)
     {
@@ -249,6 +246,7 @@ private:
 
   const QuadraticMesh                        &mesh_;
   const std::function<const Material &(int)> &material_of_;
+  CornerValues                                values_;
   std::map<PointKey, int>                     point_of_;
   std::vector<char>                           on_skin_;
   std::vector<int>                            owner_of_;  // [points] cell of of_one

@@ -162,6 +162,26 @@ TEST(AffineConstraints, FollowTiesToFreeDisplacements)
   EXPECT_THAT(affine.row(7), IsEmpty());
 }
 
+TEST(AffineConstraints, SumCellsAsProjectionsOfTheirSum)
+{
+  fem::MultipointConstraints constraints(3);
+  constraints.held[1] = 1;
+  constraints.tie(4, {{0, 0.3}, {8, -0.7}, {9, 1.5}});
+  constraints.tie(6, {{4, 3.}, {2, 0.2}});
+  constraints.measures.resize(1);
+  const fem::AffineConstraints affine(constraints);
+  const Eigen::MatrixXd        R = Eigen::MatrixXd::Random(9, 9), A = R + R.transpose();
+  const Eigen::MatrixXd        sum = affine.sum(
+             {{1, 2}, {0, 1, 2, 3, 4, 5, 6}}, 3,
+             [](int) {
+        return std::vector<int>{0, 1, 2};
+      },
+             [&](int cell) { return Eigen::MatrixXd(cell * A); });
+  const Eigen::MatrixXd expected = affine.project(3. * A.sparseView());
+  EXPECT_LT((sum - expected).norm(), 1e-14 * expected.norm());
+  EXPECT_EQ((sum - sum.transpose()).norm(), 0.) << "to the last bit";
+}
+
 TEST(AffineConstraints, ThatLeadBackToThemselvesAreRefused)
 {
   fem::MultipointConstraints constraints(2);

@@ -1,5 +1,4 @@
 #include "fem/assembly/rigid_motions.h"
-#include "fem/assembly/sparse_sum.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/statics.h"
@@ -368,20 +367,6 @@ TEST(FreeMotions, EndWhereTheInterfaceIsHeld)
   held = {frame.interfaces[0].coordinate[fem::ux]};
   // Holding ux of the top leaves, besides the translations along y and z, turns that do not move it.
   EXPECT_EQ(fem::free_motions(frame, held).size(), 5u);
-}
-
-TEST(SparseSum, OfMatricesThatAreNotCompressedIsTheirSum)
-{
-  fem::SparseMatrix           A(Eigen::MatrixXd::Ones(3, 3).sparseView());
-  Eigen::SparseMatrix<double> S(3, 3);
-  S.reserve(Eigen::Vector3i(2, 2, 2)); // room beside the entries
-  S.insert(0, 0) = 1.;
-  S.insert(2, 1) = 2.;
-  S.insert(1, 2) = 3.;
-  ASSERT_FALSE(S.isCompressed());
-  const Eigen::MatrixXd sum = Eigen::MatrixXd(A) + Eigen::MatrixXd(S);
-  fem::add(A, S);
-  EXPECT_EQ(Eigen::MatrixXd(A), sum);
 }
 
 } // namespace

@@ -46,10 +46,10 @@ Mesh mesh_of_tube(double size, bool curved)
 
 double mass_of(const QuadraticMesh &mesh, double rho)
 {
-  const Material material{210e9, 0.3, rho, "", ""};
-  double         mass = 0.;
+  CellValues values(mesh, CellPoints::rule);
+  double     mass = 0.;
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
-    mass += cell_mass(mesh, cell, material).sum();
+    mass += mass_matrix(values.of(cell), rho).sum();
   return mass;
 }
 
@@ -108,11 +108,12 @@ TEST(CurvedSides, KeepRigidMotionsFreeOfEnergy)
 {
   const QuadraticMesh mesh = quadratic_mesh(mesh_of_tube(0.02, true));
   const Material      steel{210e9, 0.3, 7850., "", ""};
+  CellValues          values(mesh, CellPoints::rule);
   ASSERT_FALSE(mesh.curved.empty());
   for (int cell = 0; cell < mesh.n_cells(); cell += 7)
   {
-    const CellStiffness C = cell_stiffness(mesh, cell, steel);
-    Eigen::VectorXd     u(30);
+    const Eigen::MatrixXd C = stiffness_matrix(values.of(cell), steel);
+    Eigen::VectorXd       u(30);
     for (int a = 0; a < 10; ++a) // a turn about the z axis and a motion along it
     {
       const Point3 &x     = mesh.points[mesh.cells[cell][a]];
