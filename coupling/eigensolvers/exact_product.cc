@@ -53,22 +53,22 @@ inline Lanes lost_by_product(double a, const Lanes &b, const Lanes &product)
 
 } // namespace
 
-Eigen::MatrixXd exact_product(const Eigen::SparseMatrix<double> &A, const Eigen::Ref<const Eigen::MatrixXd> &X)
+void exact_product(const Eigen::Ref<const Eigen::SparseMatrix<double>> &A, const Eigen::Ref<const Eigen::MatrixXd> &X,
+                   Eigen::Ref<Eigen::MatrixXd> Y)
 {
-  assert(A.isCompressed() && A.cols() == X.rows());
-  const auto      n     = A.cols();
-  const int      *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
-  const double   *a = A.valuePtr();
-  Eigen::MatrixXd Y(n, X.cols());
-  Rows            x(lanes, n); // row i of X: eight columns, contiguous
+  assert(A.isCompressed() && A.rows() == X.rows() && A.cols() == Y.rows() && X.cols() == Y.cols());
+  const int    *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
+  const double *a = A.valuePtr();
+  Rows          x(lanes, A.rows()); // row i of X: eight columns, contiguous
   for (Eigen::Index first = 0; first < X.cols(); first += lanes)
   {
     const auto width = std::min<Eigen::Index>(lanes, X.cols() - first);
     x.setZero();
     x.topRows(width) = X.middleCols(first, width).transpose();
-    for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index j = 0; j < A.cols(); ++j)
     {
       Lanes sum = Lanes::Zero(), lost = Lanes::Zero();
+      sum.head(width) = Y.row(j).segment(first, width).transpose();
       for (int k = start[j]; k < start[j + 1]; ++k)
       {
         const Lanes b       = x.col(row[k]);
@@ -82,6 +82,12 @@ Eigen::MatrixXd exact_product(const Eigen::SparseMatrix<double> &A, const Eigen:
       Y.row(j).segment(first, width) = whole.head(width).transpose();
     }
   }
+}
+
+Eigen::MatrixXd exact_product(const Eigen::SparseMatrix<double> &A, const Eigen::Ref<const Eigen::MatrixXd> &X)
+{
+  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(A.cols(), X.cols());
+  exact_product(A, X, Y);
   return Y;
 }
 

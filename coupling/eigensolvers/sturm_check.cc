@@ -20,8 +20,8 @@ using Eigen::MatrixXd;
 } // namespace
 
 SturmCheckedModes::SturmCheckedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
-                                     const Eigen::SparseMatrix<double> &C)
-    : kind_(std::move(kind)), options_(options), dense_(dense), stiffness_(C.diagonal())
+                                     Eigen::VectorXd stiffness)
+    : kind_(std::move(kind)), options_(options), dense_(dense), stiffness_(std::move(stiffness))
 {
 }
 
@@ -83,6 +83,10 @@ void SturmCheckedModes::finish()
     gap_   = search_->gap_above(wanted_);
     found_ = search_->modes(gap_.below);
     search_.reset();
+    constexpr double eps = std::numeric_limits<double>::epsilon();
+    moved_.resize(found_.V.cols());
+    for (Eigen::Index j = 0; j < moved_.size(); ++j)
+      moved_(j) = eps * found_.V.col(j).cwiseAbs2().dot(stiffness_);
   }
 }
 
@@ -95,18 +99,19 @@ void SturmCheckedModes::look_for(const LowestModes &known, int count, int block)
 }
 
 /// Each search is by larger blocks, which find frequencies that are repeated more often.
-void SturmCheckedModes::look_for_missing(LowestModes known, int count, double omega)
+void SturmCheckedModes::look_for_missing(int missing, int count, double omega)
 {
   restore();
-  const auto missing = [&] { return count - int((known.omega.array() < omega).count()); };
-  for (int block = std::max(options_.block, missing()); missing() > 0; block *= 2)
+  LowestModes known = found_.V.size() > 0 ? std::move(found_) : LowestModes();
+  for (int block = std::max(options_.block, missing); missing > 0; block *= 2)
   {
     constexpr int largest_block = 200; // largest block for missing modes: more are not an oversight
     if (block > largest_block)
-      throw ConvergenceFailure(kind_ + ": " + std::to_string(missing()) + " of " + std::to_string(count) + " below " +
+      throw ConvergenceFailure(kind_ + ": " + std::to_string(missing) + " of " + std::to_string(count) + " below " +
                                rounded(omega / two_pi) + " Hz are not found; request another number of modes");
     look_for(known, count, block);
-    known = search_->modes(count);
+    known   = search_->modes(count);
+    missing = count - int((known.omega.array() < omega).count());
   }
 }
 
@@ -114,11 +119,9 @@ void SturmCheckedModes::look_for_missing(LowestModes known, int count, double om
 /// above the gap is assumed to be as sensitive as those below it.
 double SturmCheckedModes::largest_growth(double shift) const
 {
-  constexpr double      eps      = std::numeric_limits<double>::epsilon();
-  const Eigen::VectorXd moved    = eps * (found_.V.cwiseAbs2().transpose() * stiffness_);
   const Eigen::VectorXd distance = shift * shift - found_.omega.array().square();
   const double          above    = gap_.high * gap_.high - shift * shift;
-  return std::min(distance.cwiseQuotient(moved).minCoeff(), above / moved.maxCoeff());
+  return std::min(distance.cwiseQuotient(moved_).minCoeff(), above / moved_.maxCoeff());
 }
 
 Inertia SturmCheckedModes::count_in_gap(double &omega)
@@ -159,7 +162,7 @@ bool SturmCheckedModes::confirm()
                    std::to_string(gap_.below) + " " + kind_ + " below it, and all of them are found";
     return true;
   }
-  look_for_missing(std::move(found_), inertia.negative, omega);
+  look_for_missing(inertia.negative - gap_.below, inertia.negative, omega);
   statement_ = "modes: " + std::to_string(inertia.negative - gap_.below) + " of " + std::to_string(inertia.negative) +
                " " + kind_ + " below " + rounded(omega / two_pi) +
                " Hz were missing at first (inertia of C - omega^2 M) and were found by a further search";

@@ -40,6 +40,13 @@ public:
   /// After finish(): the modes requested last, and some more, up to a gap.  If dense, all modes.
   const LowestModes &found() const { return found_; }
 
+  /// After finish(): frees the shapes of found(); if modes are missing, all are searched for again.
+  void forget_shapes()
+  {
+    if (!dense_)
+      found_.V.resize(0, 0);
+  }
+
   /**
    * After finish(): whether no mode below the gap is missing.
    *
@@ -58,9 +65,8 @@ public:
 protected:
   /// @param kind   of modes, in messages
   /// @param dense  whether few coordinates are solved at once, by all()
-  /// @param C      [n x n]
-  SturmCheckedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
-                    const Eigen::SparseMatrix<double> &C);
+  /// @param stiffness  diagonal of C [n]
+  SturmCheckedModes(std::string kind, bool dense, const BlockLanczos::Options &options, Eigen::VectorXd stiffness);
 
 private:
   virtual int                         n() const           = 0; ///< rows of the modes
@@ -73,7 +79,7 @@ private:
   Inertia count_in_gap(double &omega);
   double  largest_growth(double shift) const;
   void    look_for(const LowestModes &known, int count, int block);
-  void    look_for_missing(LowestModes known, int count, double omega);
+  void    look_for_missing(int missing, int count, double omega);
 
   std::string                 kind_;
   BlockLanczos::Options       options_;
@@ -81,6 +87,7 @@ private:
   bool                        dense_;
   Eigen::VectorXd             stiffness_; // diagonal of C
   LowestModes                 found_;
+  Eigen::VectorXd             moved_; // of every found omega^2, by E = eps diag(C)
   ModeSearch::Gap             gap_{0., 0., 0};
   std::unique_ptr<ModeSearch> search_;
   std::string                 statement_;

@@ -136,26 +136,39 @@ DistributedFactor::DistributedFactor(const fem::Ranks &ranks, const FactorMatric
       rows_(ranks, ranks.first() ? &on_first.stiffness() : nullptr, on_first.held)
 {
   fem::petsc_session();
-  bool given = on_first.given_C != nullptr;
-  ranks.broadcast(given);
-  if (!given)
-    return;
-  given_C_ = rows_.distributed(on_first.given_C);
-  if (on_first.given_C)
-    Eigen::SparseMatrix<double>().swap(*on_first.given_C);
+  const auto take = [&](Eigen::SparseMatrix<double> *from, PetscOwned<Mat> &to)
+  {
+    bool given = from != nullptr;
+    ranks.broadcast(given);
+    if (!given)
+      return;
+    to = rows_.distributed(from);
+    if (from)
+      Eigen::SparseMatrix<double>(from->rows(), from->cols()).swap(*from);
+  };
+  take(on_first.given_C, given_C_);
+  take(on_first.given_M, given_M_);
 }
+
+namespace
+{
+
+PetscOwned<Mat> shared(Mat A)
+{
+  PetscObjectReference(PetscObject(A));
+  return PetscOwned<Mat>(A);
+}
+
+} // namespace
 
 PetscOwned<Mat> DistributedFactor::stiffness() const
 {
-  if (!given_C_)
-    return rows_.distributed(on_first_.C);
-  PetscObjectReference(PetscObject(given_C_.get()));
-  return PetscOwned<Mat>(given_C_.get());
+  return stored_C_ ? rows_.loaded(stored_C_) : given_C_ ? shared(given_C_.get()) : rows_.distributed(on_first_.C);
 }
 
 PetscOwned<Mat> DistributedFactor::mass() const
 {
-  return rows_.distributed(on_first_.M);
+  return stored_M_ ? rows_.loaded(stored_M_) : given_M_ ? shared(given_M_.get()) : rows_.distributed(on_first_.M);
 }
 
 DistributedFactor::~DistributedFactor() = default;
@@ -241,9 +254,13 @@ Inertia DistributedFactor::inertia(double sigma) const
   if (rows_.size() == 0)
     return {};
   const QuietPetsc quiet;
+  auto             A = stiffness(); // C - sigma M
   if (given_C_)
-    throw std::logic_error("DistributedFactor: a matrix that was given away has no modes");
-  const auto     A = stiffness(); // C - sigma M
+  {
+    Mat copy = nullptr;
+    require(MatDuplicate(given_C_.get(), MAT_COPY_VALUES, &copy));
+    A.reset(copy);
+  }
   const VectorXd D = diagonal_of(A.get(), rows_.owned());
   require(MatAXPY(A.get(), -sigma, mass().get(), DIFFERENT_NONZERO_PATTERN));
   const auto factor   = mumps_factor(ranks_, A.get(), false, available_);
@@ -349,16 +366,21 @@ public:
 
 std::unique_ptr<ModeSearch> DistributedFactor::search(const std::string           &eigensolver,
                                                       const BlockLanczos::Options &options,
-                                                      const LowestModes           *known_on_first) const
+                                                      const LowestModes           *known_on_first)
 {
-  const bool       with_C = eigensolver != "block-lanczos" || has_option("-eps_type");
-  const auto       M = mass(), C = with_C ? stiffness() : PetscOwned<Mat>();
+  const bool with_C = eigensolver != "block-lanczos" || has_option("-eps_type");
+  if (given_M_ && ranks_.size() > 1) // the space of the search takes their place
+    for (auto [rows, stored] : {std::pair(&given_C_, &stored_C_), std::pair(&given_M_, &stored_M_)})
+      if ((*stored = rows_.stored(rows->get())))
+        rows->reset();
+  auto             M = mass(), C = with_C ? stiffness() : PetscOwned<Mat>();
   std::vector<Mat> matrices{M.get()};
   if (C)
     matrices.push_back(C.get());
   auto found     = std::make_unique<SearchOnRanks>(LocalRows(rows_, matrices));
   found->inverse = std::make_shared<InverseOnRanks>(*this, ranks_, found->rows, rows_.size());
   found->M       = found->rows.part_of(M.get());
+  M.reset();
   if (C)
     found->C = found->rows.part_of(C.get());
 
@@ -381,6 +403,24 @@ std::unique_ptr<ModeSearch> DistributedFactor::search(const std::string         
       search_modes(ranks_.comm(), {found->inverse, &found->M, found->C.size() > 0 ? &found->C : nullptr}, eigensolver,
                    options, known);
   return found;
+}
+
+void DistributedFactor::add_product_on_first(Given which, const Eigen::Ref<const MatrixXd> &X,
+                                             Eigen::Ref<MatrixXd> Y) const
+{
+  int columns = int(X.cols());
+  ranks_.broadcast(columns);
+  const auto      A = given(which);
+  const LocalRows local(rows_, {A.get()});
+  constexpr int   at_once = 16; // columns: more would take memory
+  for (int first = 0; first < columns; first += at_once)
+  {
+    const int  width = std::min(at_once, columns - first);
+    const auto from = ranks_.first() ? first : 0, taken = ranks_.first() ? width : 0;
+    MatrixXd   sum = rows_.deal_out(Y.middleCols(from, taken), width);
+    local.add_product(A.get(), rows_.deal_out(X.middleCols(from, taken), width), sum);
+    rows_.collect(sum, Y.middleCols(from, taken));
+  }
 }
 
 LowestModes DistributedFactor::on_first(LowestModes own) const

@@ -38,8 +38,13 @@ public:
   void    solve_on_first(Eigen::Ref<Eigen::MatrixXd> X) const;
   Inertia inertia(double sigma) const;
 
+  /// See StiffnessFactor.
+  void                        add_product_on_first(Given which, const Eigen::Ref<const Eigen::MatrixXd> &X,
+                                                   Eigen::Ref<Eigen::MatrixXd> Y) const;
+  Eigen::SparseMatrix<double> taken_back_on_first(Given which) const { return rows_.collected(given(which).get()); }
+
   std::unique_ptr<ModeSearch> search(const std::string &eigensolver, const BlockLanczos::Options &options,
-                                     const LowestModes *known_on_first) const;
+                                     const LowestModes *known_on_first);
   /// Modes with their rows on rank 0, [0 x count] elsewhere.
   LowestModes on_first(LowestModes own) const;
 
@@ -47,13 +52,15 @@ private:
   struct Solver;
   PetscOwned<Mat> stiffness() const;
   PetscOwned<Mat> mass() const;
+  PetscOwned<Mat> given(Given which) const { return which == Given::C ? stiffness() : mass(); }
   double          regularity_of(const Eigen::VectorXd &diagonal) const;
 
   fem::Ranks              ranks_;
   FactorMatrices          on_first_;
   double                  available_;
   RowDistribution         rows_;
-  PetscOwned<Mat>         given_C_; ///< others are distributed for each use: they would take memory beside the factor
+  PetscOwned<Mat>         given_C_, given_M_;   ///< until the first search on several ranks
+  StoredRows              stored_C_, stored_M_; ///< after it; other matrices are distributed for each use
   std::unique_ptr<Solver> solver_;
   double                  regularity_ = 1.;
 };

@@ -15,6 +15,7 @@ void require(PetscErrorCode code);
 /**
  * L L^T of a positive definite matrix, or L D L^T with pivots, by MUMPS on all ranks.  Collective.
  *
+ * @param A          its rows are in the order of elimination, that of nested dissection.
  * @param available  bytes of this computer.
  * @returns null if L L^T does not exist.
  * @throws NotEnoughMemory by the estimate in one process, fem::AgreedFailure with the name of the computer on several

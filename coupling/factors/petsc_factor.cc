@@ -27,6 +27,8 @@ enum class Call
   factorise,
   release,
   solve,
+  multiply,
+  take_back,
   count,
   search,
   find,
@@ -46,6 +48,7 @@ struct Message
   int                   search          = 0; ///< likewise
   int                   count           = 0;
   double                sigma           = 0.;
+  Given                 which           = Given::C;
   BlockLanczos::Options options         = {};
   char                  eigensolver[64] = "";
 };
@@ -53,18 +56,20 @@ struct Message
 /// Data of rank 0 alone.
 struct OnFirst
 {
-  const FactorMatrices *matrices = nullptr;
-  Eigen::Ref<MatrixXd> *X        = nullptr;
-  const LowestModes    *known    = nullptr;
+  const FactorMatrices             *matrices = nullptr;
+  Eigen::Ref<MatrixXd>             *X        = nullptr;
+  const LowestModes                *known    = nullptr;
+  const Eigen::Ref<const MatrixXd> *factor   = nullptr; ///< X is added to its product
 };
 
 struct Reply
 {
-  bool              definite   = true;
-  double            regularity = 0.;
-  Inertia           inertia{};
-  LowestModes       modes{};
-  const ModeSearch *search = nullptr; ///< of this rank
+  bool                        definite   = true;
+  double                      regularity = 0.;
+  Inertia                     inertia{};
+  LowestModes                 modes{};
+  Eigen::SparseMatrix<double> matrix{};
+  const ModeSearch           *search = nullptr; ///< of this rank
 };
 
 /// Factors and searches of this rank, by number.  Never destroyed, because MPI ends before the process does.
@@ -122,6 +127,18 @@ Reply carry_out(const fem::Ranks &ranks, const Message &message, const OnFirst &
     factor().solve_on_first(on_first.X ? *on_first.X : nothing);
     break;
   }
+  case Call::multiply:
+  {
+    MatrixXd                         none;
+    Eigen::Ref<MatrixXd>             nothing(none);
+    const Eigen::Ref<const MatrixXd> no_factor(none);
+    factor().add_product_on_first(message.which, on_first.factor ? *on_first.factor : no_factor,
+                                  on_first.X ? *on_first.X : nothing);
+    break;
+  }
+  case Call::take_back:
+    reply.matrix = factor().taken_back_on_first(message.which);
+    break;
   case Call::count:
     reply.inertia = factor().inertia(message.sigma);
     break;
@@ -245,6 +262,19 @@ public:
   double regularity() const override { return regularity_; }
   void   release() override { call(ranks_, message(Call::release)); }
   void   solve_in_place(Eigen::Ref<MatrixXd> X) const override { call(ranks_, message(Call::solve), {nullptr, &X}); }
+
+  void add_product(Given which, const Eigen::Ref<const MatrixXd> &X, Eigen::Ref<MatrixXd> Y) const override
+  {
+    Message multiply = message(Call::multiply);
+    multiply.which   = which;
+    call(ranks_, multiply, {nullptr, &Y, nullptr, &X});
+  }
+  Eigen::SparseMatrix<double> taken_back(Given which) const override
+  {
+    Message take_back = message(Call::take_back);
+    take_back.which   = which;
+    return call(ranks_, take_back).matrix;
+  }
 
   Inertia below(double omega) override
   {

@@ -1,10 +1,16 @@
 #include "coupling/factors/row_distribution.h"
 
 #include "coupling/algebra/node_ordering.h"
+#include "coupling/eigensolvers/exact_product.h"
 
 #include <petscsf.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <unistd.h>
 #include <utility>
 
 namespace gestell::coupling
@@ -16,12 +22,27 @@ namespace
 using Eigen::MatrixXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Rows of a sparse matrix.
-struct SparseRowBlock
+constexpr int rows_at_once = 1 << 14; ///< of which there is a copy
+
+template <typename T>
+bool write(const std::vector<T> &values, std::FILE *file)
 {
-  std::vector<int>    begin{0}, column;
-  std::vector<double> value;
-};
+  const std::size_t size = values.size();
+  return std::fwrite(&size, sizeof size, 1, file) == 1 && std::fwrite(values.data(), sizeof(T), size, file) == size;
+}
+
+/// Appends to the values.
+template <typename T>
+void read(std::vector<T> &values, std::FILE *file)
+{
+  const std::size_t before = values.size();
+  std::size_t       size   = 0;
+  bool              good   = std::fread(&size, sizeof size, 1, file) == 1;
+  values.resize(before + (good ? size : 0));
+  good = good && std::fread(values.data() + before, sizeof(T), size, file) == size;
+  if (!good)
+    throw std::runtime_error("a temporary file with rows of the stiffness cannot be read");
+}
 
 /// The free coordinates in the order of nested dissection.
 std::vector<int> order_of_free(const SparseMatrix &A, const std::vector<int> &held)
@@ -59,6 +80,24 @@ SparseRowBlock rows_in_order(const SparseMatrix &A, const std::vector<int> &orde
   return block;
 }
 
+/// `count` rows of this rank.
+SparseRowBlock own_rows(Mat A, int first, int count)
+{
+  SparseRowBlock block;
+  for (int i = first; i < first + count; ++i)
+  {
+    PetscInt           entries = 0;
+    const PetscInt    *columns = nullptr;
+    const PetscScalar *values  = nullptr;
+    require_petsc(MatGetRow(A, i, &entries, &columns, &values), "own rows");
+    block.column.insert(block.column.end(), columns, columns + entries);
+    block.value.insert(block.value.end(), values, values + entries);
+    block.begin.push_back(int(block.column.size()));
+    MatRestoreRow(A, i, &entries, &columns, &values);
+  }
+  return block;
+}
+
 } // namespace
 
 RowDistribution::RowDistribution(const fem::Ranks &ranks, const SparseMatrix *A, const std::vector<int> &held)
@@ -73,8 +112,10 @@ RowDistribution::RowDistribution(const fem::Ranks &ranks, const SparseMatrix *A,
   std::ptrdiff_t free = std::ptrdiff_t(order_.size());
   ranks_.broadcast(free);
   ranks_.broadcast(n_);
-  for (int rank = 0; rank <= ranks.size(); ++rank)
-    begin_[rank] = int(free * rank / ranks.size());
+  constexpr double share_of_first = 0.6; // of the rows of another rank: it stores the mesh and all shapes, too
+  const double     own            = double(free) / (share_of_first + ranks.size() - 1);
+  for (int rank = 1; rank <= ranks.size(); ++rank)
+    begin_[rank] = rank < ranks.size() ? int(own * (share_of_first + rank - 1)) : int(free);
 }
 
 PetscOwned<Mat> RowDistribution::distributed(const SparseMatrix *A) const
@@ -96,7 +137,11 @@ PetscOwned<Mat> RowDistribution::distributed(const SparseMatrix *A) const
   }
   else
     own = {ranks_.receive<int>(0), ranks_.receive<int>(0), ranks_.receive<double>(0)};
+  return made_of(own);
+}
 
+PetscOwned<Mat> RowDistribution::made_of(const SparseRowBlock &own) const
+{
   Mat result = nullptr;
   require_petsc(MatCreate(ranks_.comm(), &result), "distribution");
   PetscOwned<Mat> made(result);
@@ -109,6 +154,80 @@ PetscOwned<Mat> RowDistribution::distributed(const SparseMatrix *A) const
   MatSetOption(result, MAT_SYMMETRIC, PETSC_TRUE);
   MatSetOption(result, MAT_SYMMETRY_ETERNAL, PETSC_TRUE);
   return made;
+}
+
+StoredRows RowDistribution::stored(Mat A) const
+{
+  std::error_code none;
+  std::string     name  = (std::filesystem::temp_directory_path(none) / "gestell-rows-XXXXXX").string();
+  const int       plain = mkstemp(name.data());
+  StoredRows      file(plain < 0 ? nullptr : fdopen(plain, "w+b"));
+  if (file)
+    unlink(name.c_str());
+  int good = file != nullptr;
+  for (int i = 0; i < owned() && good; i += rows_at_once)
+  {
+    const SparseRowBlock block = own_rows(A, first() + i, std::min(rows_at_once, owned() - i));
+    good = write(block.begin, file.get()) && write(block.column, file.get()) && write(block.value, file.get());
+  }
+  good = good && std::fflush(file.get()) == 0;
+  MPI_Allreduce(MPI_IN_PLACE, &good, 1, MPI_INT, MPI_MIN, ranks_.comm());
+  return good ? std::move(file) : nullptr;
+}
+
+PetscOwned<Mat> RowDistribution::loaded(const StoredRows &rows) const
+{
+  SparseRowBlock own;
+  std::rewind(rows.get());
+  for (int i = 0; i < owned(); i += rows_at_once)
+  {
+    const int        before = own.begin.back();
+    std::vector<int> begin;
+    read(begin, rows.get());
+    for (std::size_t k = 1; k < begin.size(); ++k)
+      own.begin.push_back(before + begin[k]);
+    read(own.column, rows.get());
+    read(own.value, rows.get());
+  }
+  return made_of(own);
+}
+
+SparseMatrix RowDistribution::collected(Mat A) const
+{
+  SparseRowBlock rows = own_rows(A, first(), owned());
+  if (!ranks_.first())
+  {
+    ranks_.send(rows.begin, 0);
+    ranks_.send(rows.column, 0);
+    ranks_.send(rows.value, 0);
+    return {};
+  }
+  std::vector<std::vector<int>> begin{std::move(rows.begin)};
+  for (int rank = 1; rank < ranks_.size(); ++rank)
+    begin.push_back(ranks_.receive<int>(rank));
+  Eigen::VectorXi entries = Eigen::VectorXi::Zero(n_);
+  for (int rank = 0; rank < ranks_.size(); ++rank)
+    for (int k = begin_[rank]; k < begin_[rank + 1]; ++k)
+      entries(order_[k]) = begin[rank][k - begin_[rank] + 1] - begin[rank][k - begin_[rank]];
+  SparseMatrix result(n_, n_);
+  result.reserve(entries);
+  std::vector<std::pair<int, double>> column; // = row, as A is symmetric
+  for (int rank = 0; rank < ranks_.size(); ++rank)
+  {
+    if (rank > 0)
+      rows.column = ranks_.receive<int>(rank), rows.value = ranks_.receive<double>(rank);
+    for (int k = begin_[rank]; k < begin_[rank + 1]; ++k)
+    {
+      column.clear();
+      for (int a = begin[rank][k - begin_[rank]]; a < begin[rank][k - begin_[rank] + 1]; ++a)
+        column.emplace_back(order_[rows.column[a]], rows.value[a]);
+      std::sort(column.begin(), column.end());
+      for (const auto &[i, value] : column)
+        result.insert(i, order_[k]) = value;
+    }
+  }
+  result.makeCompressed();
+  return result;
 }
 
 MatrixXd RowDistribution::rows_of(int rank, const Eigen::Ref<const MatrixXd> &X) const
@@ -136,23 +255,27 @@ MatrixXd RowDistribution::deal_out(const Eigen::Ref<const MatrixXd> &X, int colu
   return own;
 }
 
-void RowDistribution::collect(const MatrixXd &rows, Eigen::Ref<MatrixXd> X) const
+void RowDistribution::collect(const Eigen::Ref<const MatrixXd> &rows, Eigen::Ref<MatrixXd> X) const
 {
-  if (!ranks_.first())
-    return ranks_.send(rows.data(), rows.size(), 0);
-  X.setZero();
-  const auto put = [&](int rank, const MatrixXd &values)
+  if (ranks_.first())
+    X.setZero();
+  Eigen::VectorXd theirs;
+  for (Eigen::Index j = 0; j < rows.cols(); ++j)
   {
-    for (Eigen::Index j = 0; j < values.cols(); ++j)
-      for (Eigen::Index k = 0; k < values.rows(); ++k)
-        X(order_[begin_[rank] + k], j) = values(k, j);
-  };
-  put(0, rows);
-  for (int rank = 1; rank < ranks_.size(); ++rank)
-  {
-    MatrixXd theirs(begin_[rank + 1] - begin_[rank], rows.cols());
-    ranks_.receive(theirs.data(), theirs.size(), rank);
-    put(rank, theirs);
+    if (!ranks_.first())
+    {
+      ranks_.send(rows.col(j).data(), rows.rows(), 0);
+      continue;
+    }
+    for (int k = 0; k < owned(); ++k)
+      X(order_[k], j) = rows(k, j);
+    for (int rank = 1; rank < ranks_.size(); ++rank)
+    {
+      theirs.resize(begin_[rank + 1] - begin_[rank]);
+      ranks_.receive(theirs.data(), theirs.size(), rank);
+      for (Eigen::Index k = 0; k < theirs.size(); ++k)
+        X(order_[begin_[rank] + k], j) = theirs(k);
+    }
   }
 }
 
@@ -196,14 +319,34 @@ LocalRows::LocalRows(const RowDistribution &rows, const std::vector<Mat> &matric
                 "ghosts");
 }
 
+int LocalRows::local(int row) const
+{
+  return row >= first_ && row < first_ + owned_
+             ? row - first_
+             : owned_ + int(std::lower_bound(ghosts_.begin(), ghosts_.end(), row) - ghosts_.begin());
+}
+
+void LocalRows::add_product(Mat A, const MatrixXd &X, MatrixXd &Y) const
+{
+  const int                                                              width = int(X.cols());
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> all(count(), width);
+  all.topRows(owned_) = X;
+  complete(all.data(), width);
+  const MatrixXd columns = all;
+  for (int first = 0; first < owned_; first += rows_at_once)
+  {
+    const int      rows  = std::min(rows_at_once, owned_ - first);
+    SparseRowBlock block = own_rows(A, first_ + first, rows);
+    for (int &column : block.column)
+      column = local(column);
+    exact_product(Eigen::Map<const SparseMatrix>(count(), rows, block.begin.back(), block.begin.data(),
+                                                 block.column.data(), block.value.data()),
+                  columns, Y.middleRows(first, rows));
+  }
+}
+
 fem::SparseMatrix LocalRows::part_of(Mat A) const
 {
-  const auto local = [&](int row)
-  {
-    return row >= first_ && row < first_ + owned_
-               ? row - first_
-               : owned_ + int(std::lower_bound(ghosts_.begin(), ghosts_.end(), row) - ghosts_.begin());
-  };
   std::vector<std::vector<std::pair<int, double>>> across(ghosts_.size()); // couplings of a ghost to own rows
   std::vector<int>                                 begin{0}, column;
   std::vector<double>                              value;

@@ -7,10 +7,25 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <cstdio>
+#include <memory>
 #include <vector>
 
 namespace gestell::coupling
 {
+
+/// Rows of a sparse matrix.
+struct SparseRowBlock
+{
+  std::vector<int>    begin{0}, column;
+  std::vector<double> value;
+};
+
+struct CloseFile
+{
+  void operator()(std::FILE *file) const { std::fclose(file); }
+};
+using StoredRows = std::unique_ptr<std::FILE, CloseFile>; ///< deleted when it is closed
 
 /**
  * The free coordinates of a frame on rank 0 as rows of PETSc: in the order of nested dissection, an interval of about
@@ -32,12 +47,20 @@ public:
 
   /// A(free, free) of a matrix on rank 0.
   PetscOwned<Mat> distributed(const Eigen::SparseMatrix<double> *A) const;
+  /// Back: the matrix on rank 0 [n x n], zero in the fixed coordinates.
+  Eigen::SparseMatrix<double> collected(Mat A) const;
+
+  /// The rows of A on the disks of their computers, in the folder for temporary files, and A again; none if a disk does
+  /// not take them.
+  StoredRows      stored(Mat A) const;
+  PetscOwned<Mat> loaded(const StoredRows &rows) const;
 
   /// Own rows of X [n x k] on rank 0, and back: fixed coordinates become zero.
   Eigen::MatrixXd deal_out(const Eigen::Ref<const Eigen::MatrixXd> &X, int columns) const;
-  void            collect(const Eigen::MatrixXd &rows, Eigen::Ref<Eigen::MatrixXd> X) const;
+  void            collect(const Eigen::Ref<const Eigen::MatrixXd> &rows, Eigen::Ref<Eigen::MatrixXd> X) const;
 
 private:
+  PetscOwned<Mat> made_of(const SparseRowBlock &own) const;
   Eigen::MatrixXd rows_of(int rank, const Eigen::Ref<const Eigen::MatrixXd> &X) const;
 
   fem::Ranks       ranks_;
@@ -64,12 +87,17 @@ public:
   /// The part of this rank, symmetric.
   fem::SparseMatrix part_of(Mat A) const;
 
+  /// Own rows of Y <- Y + A X: see exact_product().
+  void add_product(Mat A, const Eigen::MatrixXd &X, Eigen::MatrixXd &Y) const;
+
   /// Copies the values of ghosts from their ranks; adds the values at ghosts to their ranks.  The rows of X lie one
   /// after the other, `width` numbers each.
   void complete(double *X, int width) const;
   void add_up(double *X, int width) const;
 
 private:
+  int local(int row) const;
+
   int                 first_, owned_;
   std::vector<int>    ghosts_; ///< rows, ascending
   PetscOwned<PetscSF> exchange_;

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,18 @@ struct FactorMatrices
   const Eigen::SparseMatrix<double> *C         = nullptr;  ///< [n x n]
   const Eigen::SparseMatrix<double> *M         = nullptr;  ///< the same; none: solutions only
   std::vector<int>                   held      = {};       ///< fixed coordinates, ascending
-  Eigen::SparseMatrix<double>       *given_C   = nullptr;  ///< in place of C: emptied when it has been distributed
+  Eigen::SparseMatrix<double>       *given_C   = nullptr;  ///< in place of C: without entries when it is distributed
   double                             available = INFINITY; ///< bytes of this computer
+  Eigen::SparseMatrix<double>       *given_M   = nullptr;  ///< likewise, in place of M
 
   const Eigen::SparseMatrix<double> &stiffness() const { return given_C ? *given_C : *C; }
+};
+
+/// A matrix that was given away.
+enum class Given
+{
+  C,
+  M
 };
 
 /**
@@ -54,6 +63,18 @@ public:
 
   /// X [n x k] <- C22^-1 X; zero in the fixed coordinates.
   virtual void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const = 0;
+  /// Y [n x k] <- Y + A22 X for a matrix that was given away, summed in twice the working precision; zero in the fixed
+  /// coordinates.
+  virtual void add_product(Given, const Eigen::Ref<const Eigen::MatrixXd> &, Eigen::Ref<Eigen::MatrixXd>) const
+  {
+    throw std::logic_error("StiffnessFactor: no matrix was given away");
+  }
+  /// A22 itself [n x n], without the rows and columns of fixed coordinates.
+  virtual Eigen::SparseMatrix<double> taken_back(Given) const
+  {
+    throw std::logic_error("StiffnessFactor: no matrix was given away");
+  }
+
   /// Number of modes below omega [rad/s], by the inertia of C22 - omega^2 M22.
   virtual Inertia below(double omega) = 0;
   /// The search for the lowest modes; see search_modes().

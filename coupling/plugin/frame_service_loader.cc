@@ -14,16 +14,16 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr const char *frame_library = "libgestell_frame.so";
+constexpr const char *frame_library = "libgestell_frame.so", *rank_library = "libgestell_rank.so";
 
-void *load_frame_library()
+void *load_library(const char *library)
 {
-  const auto file = find_plugin(frame_library);
+  const auto file = find_plugin(library);
   if (file.empty())
-    throw std::invalid_argument(std::string("frame_service: ") + frame_library +
+    throw std::invalid_argument(std::string("frame_service: ") + library +
                                 " not found next to the program: this build of gestell cannot mesh and reduce frames; "
                                 "build it with GESTELL_FEM=ON, or set GESTELL_PLUGIN_DIR to the folder of " +
-                                frame_library + ", or run from a reduced frame in the cache");
+                                library + ", or run from a reduced frame in the cache");
   setenv("OPENBLAS_NUM_THREADS", "1", 0); // read when the library loads: waiting threads spin
   return load_plugin(file);
 }
@@ -31,7 +31,7 @@ void *load_frame_library()
 /// Loaded on the first call and never unloaded: PETSc and MPI end with the process.
 void *loaded_plugin()
 {
-  static void *const handle = load_frame_library();
+  static void *const handle = load_library(frame_library);
   return handle;
 }
 
@@ -71,7 +71,9 @@ MeshService &mesh_service()
 
 void obey_in_frame_service(int order)
 {
-  static const auto obey_in_plugin = function<void(int)>("gestell_obey");
+  static void *const plugin = load_library(rank_library);
+  static const auto  obey_in_plugin =
+      reinterpret_cast<void (*)(int)>(function_of_plugin(plugin, "gestell_obey", rank_library));
   obey_in_plugin(order);
 }
 

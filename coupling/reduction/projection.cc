@@ -122,12 +122,14 @@ ReducedFrame project(const fem::FrameMatrices &frame, const ReductionBasis &basi
   return reduced;
 }
 
-void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, const std::vector<int> &q1)
+void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, const FixedInterfaceFrame &held,
+                       const std::vector<int> &q1)
 {
   VectorXd        &frequencies      = reduced.frequencies_hz;
   constexpr double suspiciously_low = 1e-5; // of the highest frequency: below, its square may be rounding
   if (frequencies.size() == 0 || frequencies(0) > suspiciously_low * frequencies.maxCoeff())
     return;
+  held.take_back();
   reduced.facts.free_motions = fem::free_motions(frame, {});
   free_rigid_motions(reduced.C, frame, q1);
   frequencies.head(std::min(frequencies.size(), Eigen::Index(reduced.facts.free_motions.size()))).setZero();

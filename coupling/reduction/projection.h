@@ -2,6 +2,7 @@
 
 #include "coupling/frame/reduced_frame.h"
 #include "coupling/reduction/estimates/refined_modes.h"
+#include "coupling/reduction/shapes/fixed_interface_frame.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 #include "fem/values/frame_matrices.h"
 
@@ -29,6 +30,7 @@ ReducedFrame project(const fem::FrameMatrices &frame, const ReductionBasis &basi
 
 /// Uses the number of rigid-body modes of the full frame: with a single interface all of C*_11 is rounding, which is
 /// removed along these modes; their frequencies are zero.
-void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, const std::vector<int> &q1);
+void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, const FixedInterfaceFrame &held,
+                       const std::vector<int> &q1);
 
 } // namespace gestell::coupling

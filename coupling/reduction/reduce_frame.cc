@@ -65,11 +65,12 @@ MatrixXd side_by_side(const MatrixXd &A, const MatrixXd &B)
 
 /// Attachment modes join the basis.
 /// @return whether there are any.
-bool complete(ReductionSpace &space, const fem::FrameMatrices &frame, const MatrixXd &relief)
+bool complete(ReductionSpace &space, const InterfaceStatics &statics)
 {
   if (space.attachment.size() == 0)
-    space.attachment.resize(frame.M.rows(), 0);
-  return append_attachment_modes(space.basis, frame, side_by_side(std::exchange(space.attachment, {}), relief)) > 0;
+    space.attachment.resize(statics.relief.rows(), 0);
+  return append_attachment_modes(space.basis, statics.held,
+                                 side_by_side(std::exchange(space.attachment, {}), statics.relief)) > 0;
 }
 
 /// Flexibility of modes left out; the first n_modes coordinates after the interface are retained modes.
@@ -92,18 +93,18 @@ void add_texts(ReducedFrame &reduced, const fem::FrameMatrices &frame, const Red
 } // namespace
 
 ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                               const Progress &progress)
+                               const Progress &progress, fem::FrameMatrices *given)
 {
   require_valid(frame, frame.interface_coordinates(), options);
   BasisFunction   &basis_of = basis_function(options);
-  InterfaceStatics statics(frame, options, progress);
+  InterfaceStatics statics(frame, options, progress, given);
   ReductionSpace   space     = basis_of(frame, options, statics);
   const int        n_fixed   = space.basis.m();
-  const bool       completed = complete(space, frame, statics.relief);
+  const bool       completed = complete(space, statics);
   if (completed || space.star.M.size() == 0)
   {
     statics.begin("reduced matrices");
-    space.star = reduced_matrices(space.basis, frame.B, frame.C);
+    space.star = reduced_matrices(space.basis, frame.B);
   }
   auto [frequencies, damped, limit] = estimate(space, space.star, completed, options);
   StaticRemainder remainder         = static_remainder(statics.response.loads, space.basis, statics.load);
@@ -115,7 +116,7 @@ ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionO
   reduced.frequency_error    = frequencies.error;
   reduced.frequency_limit_hz = limit / two_pi;
   reduced.static_residual    = remainder.relative;
-  name_free_motions(reduced, frame, space.basis.q1);
+  name_free_motions(reduced, frame, statics.held, space.basis.q1);
   add_texts(reduced, frame, space);
   return {std::move(reduced), std::move(space.basis), std::move(remainder.deflection), options.factor};
 }

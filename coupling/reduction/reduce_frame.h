@@ -25,10 +25,12 @@ struct ReducedModel
  * @param frame    M, B, C [n x n] symmetric, both triangles stored; C22 positive definite (no rigid-body mode with the
  * interface fixed); interfaces may be empty if modes are retained.
  * @param options  0 <= n_modes <= n - n1 or < 0; tolerance > 0; frequency >= 0 [Hz].
+ * @param given    the same frame, if its M and C may be left without entries: several ranks store them, rank 0 does
+ * not.
  * @throws std::invalid_argument (sizes, free motions, names), ConvergenceFailure (eigenvalue solver).
  */
 ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                               const Progress &progress = {});
+                               const Progress &progress = {}, fem::FrameMatrices *given = nullptr);
 
 /// The same, returning only the frame.
 ReducedFrame reduce_frame(const fem::FrameMatrices &frame, const ReductionOptions &options,

@@ -429,6 +429,11 @@ PetscOwned<Mat> mass_operator(MPI_Comm comm, const ModeProblem &problem)
   return shell(comm, problem, multiply<&ModeProblem::mass_times>);
 }
 
+void *data_of_factor(Mat factor)
+{
+  return factor->data;
+}
+
 void set_block_lanczos(EPS eps, const BlockLanczos::Options &options, const LowestModes &known)
 {
   own(eps).options = options;

@@ -25,6 +25,9 @@ void register_own_types();
 PetscOwned<Mat> stiffness_operator(MPI_Comm comm, const ModeProblem &problem);
 PetscOwned<Mat> mass_operator(MPI_Comm comm, const ModeProblem &problem);
 
+/// The data of a library behind a factor, for what its interface in PETSc has no function.
+void *data_of_factor(Mat factor);
+
 // For an EPS of the type "block-lanczos":
 
 /// @param known  modes [coordinates x k] that are part of the space from the start.

@@ -1,6 +1,7 @@
 #include "coupling/plugin/mesh_service.h"
 
 #include "coupling/algebra/openblas.h"
+#include "coupling/factors/petsc_factor.h"
 #include "coupling/plugin/frame/converge_mesh.h"
 #include "coupling/plugin/frame/mesh_statement.h"
 #include "coupling/reduction/parts/parted_frame.h"
@@ -13,6 +14,7 @@
 #include "fem/values/number_text.h"
 
 #include <algorithm>
+#include <iostream>
 #include <optional>
 
 namespace gestell::coupling
@@ -115,11 +117,14 @@ void add_mesh_statement(ReducedModel &reduced, const fem::Discretisation &of, co
   (warns ? reduced.frame.notes : reduced.frame.statements).push_back(std::move(text));
 }
 
+/// @param keeps  M and C, which otherwise several ranks store during the reduction, and none after it.
 MeshService::Unreduced assemble(const fem::Mesh &mesh, const fem::FrameSpecification &frame,
-                                const ReductionOptions &options, const Progress &progress)
+                                const ReductionOptions &options, const Progress &progress, bool keeps)
 {
   fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame);
-  ReducedModel        reduced        = reduce_with_basis(discretisation.matrices, options, progress);
+  fem::FrameMatrices &matrices       = discretisation.matrices;
+  keeps                              = keeps || may_be_raised(*discretisation.mesh_error, double(matrices.M.rows()));
+  ReducedModel reduced               = reduce_with_basis(matrices, options, progress, keeps ? nullptr : &matrices);
   add_mesh_statement(reduced, discretisation, mesh, progress);
   return {std::move(discretisation.matrices), std::move(reduced.frame)};
 }
@@ -159,16 +164,18 @@ public:
   ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
                       const Progress &progress) override
   {
-    if (frame.parts == 1)
-      return assemble(frame, options, progress).reduced;
     use_one_blas_thread();
     const fem::Mesh mesh = fem::make_mesh(frame, progress);
     if (progress)
       progress("assembly", -1.);
+    if (frame.parts == 1)
+      return coupling::assemble(mesh, frame, options, progress, false).reduced;
     fem::Discretisation  discretisation = fem::discretise_for_parts(mesh, frame);
     const fem::CellParts parts          = parts_of(discretisation, mesh, frame);
     if (parts.size() == 1)
-      return coupling::assemble(mesh, frame, options, progress).reduced;
+      return coupling::assemble(mesh, frame, options, progress, false).reduced;
+    if (const int ranks = ranks_of_factors().size(); ranks > 1)
+      std::cerr << "gestell: " << ranks - 1 << " of " << ranks << " ranks are idle while the parts are reduced\n";
     ReducedModel reduced      = reduce_in_parts(discretisation.matrices, parts, frame.rayleigh_mass,
                                                 frame.rayleigh_stiffness, options, frame.place, progress);
     discretisation.matrices.C = fem::SparseMatrix();
@@ -183,7 +190,7 @@ public:
     const fem::Mesh mesh = fem::make_mesh(frame, progress);
     if (progress)
       progress("assembly", -1.);
-    return coupling::assemble(mesh, frame, options, progress);
+    return coupling::assemble(mesh, frame, options, progress, true);
   }
 
   ReducedFrame reduce_raised(const fem::FrameSpecification &frame, const ReductionOptions &options,

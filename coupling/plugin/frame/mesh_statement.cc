@@ -54,18 +54,19 @@ Eigen::VectorXd by_stresses(const Modes &modes, const ReducedModel &reduced, con
   return share.unaryExpr([](double s) { return fem::relative_frequency_error(s); });
 }
 
+// Largest numbers of coordinates of degree three for which the comparison is worth two to three and a half times the
+// cost of the reduction (docs/theory/mesh_error.md): some 15 CPU s for thin walls, whose bending stresses do not
+// show, and 3 s for bodies, for which stresses suffice.
+constexpr double most_of_walls = 4e5, most_of_bodies = 6e4;
+
 /// Errors of frequencies from elements of degree three; empty if these cost too much.
 Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const fem::FrameMatrices &frame,
                           const fem::MeshError &mesh_error, bool thin_walls)
 {
   if (frame.C.nonZeros() == 0)
-    return {}; // of a frame in parts, whose matrices are not kept
-  const double n         = fem::raised_coordinates(mesh_error.mesh(), double(frame.M.rows())),
-               available = fem::available_memory();
-  // Largest numbers of coordinates of degree three for which the comparison is worth two to three and a half times the
-  // cost of the reduction (docs/theory/mesh_error.md): some 15 CPU s for thin walls, whose bending stresses do not
-  // show, and 3 s for bodies, for which stresses suffice.
-  constexpr double most_of_walls = 4e5, most_of_bodies = 6e4;
+    return {}; // of a frame in parts or on ranks, whose matrices are not kept
+  const double n                  = fem::raised_coordinates(mesh_error.mesh(), double(frame.M.rows())),
+               available          = fem::available_memory();
   constexpr double bytes_per_cell = 1e5; // of the matrices, during assembly
   if (n > (thin_walls ? most_of_walls : most_of_bodies) ||
       2. * bytes_per_cell * mesh_error.mesh().n_cells() > available)
@@ -96,6 +97,11 @@ Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const
 }
 
 } // namespace
+
+bool may_be_raised(const fem::MeshError &mesh_error, double n)
+{
+  return fem::raised_coordinates(mesh_error.mesh(), n) <= most_of_walls;
+}
 
 MeshErrorEstimate modal_mesh_error(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                                    const fem::MeshError &mesh_error, bool thin_walls)

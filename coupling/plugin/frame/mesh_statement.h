@@ -27,6 +27,9 @@ struct MeshErrorEstimate
 MeshErrorEstimate modal_mesh_error(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                                    const fem::MeshError &mesh_error, bool thin_walls);
 
+/// Whether a frame of n coordinates is small enough for elements of degree three, which need its matrices.
+bool may_be_raised(const fem::MeshError &mesh_error, double n);
+
 struct MeshStatement
 {
   std::string text;

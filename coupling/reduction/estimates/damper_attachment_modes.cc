@@ -52,12 +52,12 @@ public:
   /// @return the number of shapes appended
   Index append(MatrixXd W)
   {
-    const auto mass = [&] { return MatrixXd(W.transpose() * symmetric_product(frame_.M, W)); };
+    const auto mass = [&] { return MatrixXd(W.transpose() * held_.mass_times(W)); };
     W *= mass().diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 0.; }).asDiagonal();
     const auto V = basis_.T.middleCols(n1_, fixed_ - n1_);
     for (int again = 0; again < 2; ++again)
     {
-      const MatrixXd MW = symmetric_product(frame_.M, W);
+      const MatrixXd MW = held_.mass_times(W);
       W -= V * (V.transpose() * MW);
       W -= W_ * (W_.transpose() * MW);
     }
@@ -120,7 +120,7 @@ public:
     while (kept < 2 * n1_ && energy.eigenvalues().head(2 * n1_ - kept).sum() > share * tolerance * answer.H.norm())
       ++kept;
     const MatrixXd a = parts * energy.eigenvectors().rightCols(std::min(kept, most));
-    MatrixXd       Y = symmetric_product(frame_.M, expand(a(of(in_M, 0, size()), Eigen::all))) +
+    MatrixXd       Y = held_.mass_times(expand(a(of(in_M, 0, size()), Eigen::all))) +
                  symmetric_product(frame_.B, expand(a(of(in_B, 0, size()), Eigen::all)));
     held_.solve_in_place(Y);
     return Y;
@@ -169,13 +169,13 @@ private:
       A(at, rows) = columns.transpose();
     };
     MatrixXd unit = MatrixXd::Identity(size(), size()).middleCols(j, k);
-    MatrixXd t = expand(unit), F[] = {{}, symmetric_product(frame_.M, t), symmetric_product(frame_.B, t)};
+    MatrixXd t = expand(unit), F[] = {{}, held_.mass_times(t), symmetric_product(frame_.B, t)};
     symmetric(M_, Eigen::seqN(j, k), Eigen::all, project(F[in_M]));
     symmetric(B_, Eigen::seqN(j, k), Eigen::all, project(F[in_B]));
-    symmetric(C_, Eigen::seqN(j, k), Eigen::all, project(symmetric_product(frame_.C, t)));
+    symmetric(C_, Eigen::seqN(j, k), Eigen::all, project(held_.stiffness_times(t)));
     unit.topRows(n1_).setZero();
     t       = expand(unit); // of T2
-    F[in_C] = symmetric_product(frame_.C, t);
+    F[in_C] = held_.stiffness_times(t);
     for (const Kind kind : {in_C, in_M, in_B})
     {
       MatrixXd   Y       = inside(std::move(F[kind]));
@@ -188,7 +188,7 @@ private:
       else
         held_.solve_in_place(Y);
       symmetric(G_, at, of(in_C, 0, size()), on_T2);
-      symmetric(G_, at, of(in_M, 0, size()), project(symmetric_product(frame_.M, Y)));
+      symmetric(G_, at, of(in_M, 0, size()), project(held_.mass_times(Y)));
       symmetric(G_, at, of(in_B, 0, size()), project(symmetric_product(frame_.B, Y)));
     }
   }

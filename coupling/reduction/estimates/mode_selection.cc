@@ -150,9 +150,9 @@ namespace
 {
 
 /// Number of internal coordinates with mass; if M is not negative, an upper bound of the number of modes.
-int with_mass(const fem::FrameMatrices &frame, const std::vector<int> &q1)
+int with_mass(const FixedInterfaceFrame &held, const std::vector<int> &q1)
 {
-  Eigen::VectorXd mass = frame.M.diagonal();
+  Eigen::VectorXd mass = held.mass_diagonal();
   mass(q1).setZero();
   return int((mass.array() > 0.).count());
 }
@@ -186,7 +186,7 @@ Look look_at(const ReductionBasis &basis, int n_modes, bool last, const Interfac
              const fem::FrameMatrices &frame, const ReductionOptions &options)
 {
   const int             m    = basis.m();
-  const ReducedMatrices star = reduced_matrices(basis, frame.B, frame.C);
+  const ReducedMatrices star = reduced_matrices(basis, frame.B);
   Look                  look{refined_modes(basis, star, statics.response, frame)};
   look.within    = highest_of_interest(options, look.refined);
   look.highest   = m > 0 && m < n_modes ? basis.omega0(m - 1) : INFINITY;
@@ -251,7 +251,7 @@ ModeSelection enough(const Look &look, ReductionBasis &basis, const InterfaceSta
 ModeSelection select_modes(ReductionBasis &basis, FixedInterfaceModes &fixed, const InterfaceStatics &statics,
                            const fem::FrameMatrices &frame, const ReductionOptions &options)
 {
-  const int        n_modes = with_mass(frame, basis.q1), most = std::min(n_modes, most_modes);
+  const int        n_modes = with_mass(statics.held, basis.q1), most = std::min(n_modes, most_modes);
   constexpr int    first_modes = 30;  // at the first look; five more get to most_modes
   constexpr double growth      = 1.5; // from try to try: all of them together cost three times the last at most
   for (int m = std::min(first_modes, most);; m = std::min(most, int(std::ceil(growth * m))))
@@ -270,6 +270,7 @@ ModeSelection select_modes(ReductionBasis &basis, FixedInterfaceModes &fixed, co
     if (basis.m() < m)
       fixed.find(basis.m()); // known by then: that many are to be proved complete
     fixed.finish();
+    fixed.forget_shapes();
     return found;
   }
 }

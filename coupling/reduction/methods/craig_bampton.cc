@@ -101,7 +101,7 @@ ReductionSpace chosen(FixedInterfaceModes &fixed, InterfaceStatics &statics, con
   if (!selection.statement.empty())
     space.statements.push_back(selection.statement);
   statics.begin("reduced matrices");
-  space.star = reduced_matrices(space.basis, frame.B, frame.C);
+  space.star = reduced_matrices(space.basis, frame.B);
   return space;
 }
 
@@ -114,8 +114,9 @@ ReductionSpace counted(FixedInterfaceModes &fixed, InterfaceStatics &statics, co
   fixed.find(options.n_modes);
   fixed.finish();
   space.basis.set_modes(fixed.found().V.leftCols(options.n_modes), fixed.found().omega.head(options.n_modes));
+  fixed.forget_shapes();
   statics.begin("reduced matrices");
-  space.star    = reduced_matrices(space.basis, frame.B, frame.C);
+  space.star    = reduced_matrices(space.basis, frame.B);
   space.refined = refined_modes(space.basis, space.star, statics.response, frame);
   state_receptance(space, statics, frame, options);
   warn_of_few_modes(space, options);

@@ -65,7 +65,7 @@ ReductionSpace Guyan::basis(const fem::FrameMatrices &frame, const ReductionOpti
   statics.held.release();
   statics.begin("reduced matrices");
   ReductionSpace space{std::move(statics.basis)};
-  space.star        = reduced_matrices(space.basis, frame.B, frame.C);
+  space.star        = reduced_matrices(space.basis, frame.B);
   space.refined     = refined_modes(space.basis, space.star, statics.response, frame);
   const Reach reach = reach_of(space, options.tolerance);
   space.limit       = options.frequency > 0. ? two_pi * options.frequency : reach.good;

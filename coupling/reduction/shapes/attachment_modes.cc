@@ -18,17 +18,17 @@ VectorXd mass_of(const MatrixXd &W, const MatrixXd &MW)
 
 } // namespace
 
-int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &frame, MatrixXd W)
+int append_attachment_modes(ReductionBasis &basis, const FixedInterfaceFrame &held, MatrixXd W)
 {
   if (W.cols() == 0)
     return 0;
-  const VectorXd size = mass_of(W, symmetric_product(frame.M, W)).cwiseSqrt();
+  const VectorXd size = mass_of(W, held.mass_times(W)).cwiseSqrt();
   W *= size.unaryExpr([](double s) { return s > 0. ? 1. / s : 0.; }).asDiagonal();
-  const MatrixXd M_modes = symmetric_product(frame.M, basis.fixed_modes());
+  const MatrixXd M_modes = held.mass_times(basis.fixed_modes());
   for (int again = 0; again < 2; ++again)
     W -= basis.fixed_modes() * (M_modes.transpose() * W);
 
-  const SymmetricEigenSolver mass(W.transpose() * symmetric_product(frame.M, W));
+  const SymmetricEigenSolver mass(W.transpose() * held.mass_times(W));
   // relative size of a shape after projection: its square is rounding of the mass
   constexpr double rounding = 1e-6;
   const auto       dropped  = (mass.eigenvalues().array() <= rounding * rounding).count();
@@ -37,7 +37,7 @@ int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &fra
     return 0;
   W = W * mass.eigenvectors().rightCols(kept) * mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
 
-  const SymmetricEigenSolver stiffness(W.transpose() * symmetric_product(frame.C, W));
+  const SymmetricEigenSolver stiffness(W.transpose() * held.stiffness_times(W));
   MatrixXd                   V(W.rows(), basis.m() + kept);
   VectorXd                   omega(basis.m() + kept);
   V << basis.fixed_modes(), W * stiffness.eigenvectors();
@@ -51,9 +51,9 @@ MatrixXd inertia_relief_shapes(const FixedInterfaceFrame &held, const fem::Frame
 {
   MatrixXd load(frame.M.rows(), 0);
   if (frame.rigid_motions.cols() == 6)
-    load = symmetric_product(frame.M, frame.rigid_motions);
+    load = held.mass_times(frame.rigid_motions);
   else if (frame.translations.rows() > 0)
-    load = symmetric_product(frame.M, frame.translations);
+    load = held.mass_times(frame.translations);
   if (frame.acceleration_load.rows() > 0 && load.cols() >= 3)
     load.leftCols(3) = frame.acceleration_load; // weight, exactly so at clamped supports too
   held.solve_in_place(load);

@@ -17,7 +17,7 @@ namespace gestell::coupling
  * @param W      [n x k] shapes, zero on q1.
  * @return       number of modes appended, at most k.
  */
-int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &frame, Eigen::MatrixXd W);
+int append_attachment_modes(ReductionBasis &basis, const FixedInterfaceFrame &held, Eigen::MatrixXd W);
 
 /**
  * Inertia relief: the static internal deflections under the inertia of rigid-body modes,

@@ -1,9 +1,11 @@
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
 
 #include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/eigensolvers/exact_product.h"
 #include "coupling/factors/make_factor.h"
 #include "coupling/factors/petsc_factor.h"
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/reduction/shapes/reduction_basis.h"
 #include "fem/assembly/rigid_motions.h"
 #include "fem/mesh/memory_estimate.h"
 #include "fem/values/frame_matrices.h"
@@ -36,20 +38,21 @@ MatrixXd orthonormal(const MatrixXd &X, const VectorXd &D)
   return root.cwiseInverse().asDiagonal() * Q;
 }
 
-/// Motions of least x^T C x / x^T D x, D the diagonal of C, that are free.
-MatrixXd energy_free_motions(const SparseMatrix &lower, const VectorXd &D)
+/// Motions of least x^T C x / x^T D x, D the diagonal of C, that are free with q1 fixed.
+MatrixXd energy_free_motions(const SparseMatrix &C, const std::vector<int> &q1, const VectorXd &D)
 {
-  SparseMatrix     shifted = lower;
+  SparseMatrix     shifted = C;
   constexpr double shift   = 1e-9; // C + shift D can be factored whatever is free
   shifted.diagonal() += shift * D;
-  const SparseCholesky factor(shifted);
+  const SparseCholesky factor(shifted, q1, fem::available_memory());
 
   constexpr int candidates = 12; // a frame in one piece has six rigid motions; a loose part adds six
-  const int     n = int(D.size()), k = std::min(candidates, n);
+  const int     n = int(D.size()), k = std::min(candidates, n - int(q1.size()));
   MatrixXd      X(n, k);
   for (int j = 0; j < k; ++j)
     for (int i = 0; i < n; ++i)
       X(i, j) = std::fmod(0.6180339887498949 * (i + 1.) * (j + 1.) * (j + 1.), 1.) - 0.5;
+  X(q1, Eigen::all).setZero();
 
   VectorXd      quotient;
   constexpr int rounds = 6; // of inverse iteration: free motions grow by about 100 in each
@@ -57,9 +60,8 @@ MatrixXd energy_free_motions(const SparseMatrix &lower, const VectorXd &D)
   {
     X = D.asDiagonal() * X;
     factor.solve_in_place(X);
-    X                             = orthonormal(X, D);
-    const MatrixXd             CX = lower.selfadjointView<Eigen::Lower>() * X;
-    const SymmetricEigenSolver ritz(X.transpose() * CX);
+    X = orthonormal(X, D);
+    const SymmetricEigenSolver ritz(X.transpose() * symmetric_product(C, X));
     X        = (X * ritz.eigenvectors()).eval();
     quotient = ritz.eigenvalues();
   }
@@ -109,22 +111,23 @@ std::string join(const std::vector<std::string> &words)
  * A motion x counts as free if  x^T C x < 1e-13 x^T diag(C) x:  rounding of the assembly gives about 1e-16, a machine
  * on soft springs some 1e-10.
  *
- * @param C  lower triangle of the stiffness with the interface fixed [n x n].
+ * @throws NotEnoughMemory.
  */
-void require_no_free_motion(const fem::FrameMatrices &frame, const std::vector<int> &q1, const SparseMatrix &C)
+void require_no_free_motion(const fem::FrameMatrices &frame, const std::vector<int> &q1)
 {
   const auto rigid = fem::free_motions(frame, q1);
   if (!rigid.empty())
     refuse(join(rigid));
 
-  const VectorXd D = C.diagonal();
+  VectorXd D = frame.C.diagonal();
+  D(q1).setConstant(std::max(D.mean(), 1e-300));
   for (int i = 0; i < D.size(); ++i)
     if (!(D(i) > 0.))
       refuse("DOF " + std::to_string(i) + " has no stiffness");
   MatrixXd X;
   try
   {
-    X = energy_free_motions(C, D);
+    X = energy_free_motions(frame.C, q1, D);
   }
   catch (const NotPositiveDefinite &)
   {
@@ -134,37 +137,16 @@ void require_no_free_motion(const fem::FrameMatrices &frame, const std::vector<i
     refuse(std::to_string(X.cols()) + (X.cols() == 1 ? " way, " : " ways, one of them ") + place_of(frame, X.col(0)));
 }
 
-using SparseMatrix = Eigen::SparseMatrix<double>;
-
 /// Ratio of pivots below which a free motion is suspected; frames with sufficient supports stay above it.
 constexpr double suspicious_pivots = 1e-11;
 
-/// Lower triangle of C with the rows and columns of q1 replaced by their diagonal: C22, padded.
-SparseMatrix lower_triangle_held(const SparseMatrix &C, const std::vector<int> &q1)
+SparseMatrix columns_of(const SparseMatrix &A, const std::vector<int> &q1)
 {
-  std::vector<char> held(C.rows(), 0);
-  for (const int i : q1)
-    held[i] = 1;
-  Eigen::VectorXi height(C.cols());
-  for (int j = 0; j < C.outerSize(); ++j)
-  {
-    height(j) = 1;
-    for (SparseMatrix::InnerIterator c(C, j); c; ++c)
-      height(j) += c.row() > j;
-  }
-  const double typical = std::max(C.diagonal().mean(), 1e-300);
-  SparseMatrix lower(C.rows(), C.cols());
-  lower.reserve(height);
-  for (int j = 0; j < C.outerSize(); ++j)
-  {
-    lower.insert(j, j) = held[j] ? typical : C.coeff(j, j);
-    if (!held[j])
-      for (SparseMatrix::InnerIterator c(C, j); c; ++c)
-        if (c.row() > j && !held[c.row()])
-          lower.insert(c.row(), j) = c.value();
-  }
-  lower.makeCompressed();
-  return lower;
+  SparseMatrix columns(A.rows(), q1.size());
+  for (std::size_t k = 0; k < q1.size(); ++k)
+    columns.col(k) = A.col(q1[k]);
+  columns.makeCompressed();
+  return columns;
 }
 
 /// @throws std::invalid_argument if there are more ranks than cells or, for frames without cells, than coordinates.
@@ -182,20 +164,27 @@ void require_work_for_all(int n_ranks, const fem::FrameMatrices &frame)
 } // namespace
 
 FixedInterfaceFrame::FixedInterfaceFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1,
-                                         std::string factor, std::string eigensolver)
-    : frame_(frame), q1_(q1), factor_name_(std::move(factor)), eigensolver_(std::move(eigensolver))
+                                         std::string factor, std::string eigensolver, fem::FrameMatrices *given)
+    : frame_(frame), given_(ranks_of_factors().size() > 1 ? given : nullptr),
+      C_{columns_of(frame.C, q1), frame.C.diagonal()}, M_{columns_of(frame.M, q1), frame.M.diagonal()}, q1_(q1),
+      factor_name_(std::move(factor)), eigensolver_(std::move(eigensolver))
 {
   require_work_for_all(ranks_of_factors().size(), frame);
-  factor_ = factor_of(q1);
+  const double available = fem::available_memory();
+  factor_ = make_factor(factor_name_, given_ ? FactorMatrices{nullptr, nullptr, q1, &given->C, available, &given->M}
+                                             : FactorMatrices{&frame.C, &frame.M, q1, nullptr, available});
   try
   {
     factor_->factorise();
-    if (!(factor_->regularity() >= suspicious_pivots))
-      require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
+    if (factor_->regularity() >= suspicious_pivots)
+      return;
+    take_back();
+    require_no_free_motion(frame, q1);
   }
   catch (const NotPositiveDefinite &failure)
   {
-    require_no_free_motion(frame, q1, lower_triangle_held(frame.C, q1));
+    take_back();
+    require_no_free_motion(frame, q1);
     throw std::invalid_argument(
         "reduction: C22, the stiffness of the frame with its interface fixed, is not positive definite" +
         (failure.row >= 0 ? " at DOF " + std::to_string(failure.row) : std::string()) +
@@ -203,24 +192,56 @@ FixedInterfaceFrame::FixedInterfaceFrame(const fem::FrameMatrices &frame, const 
   }
 }
 
-std::unique_ptr<StiffnessFactor> FixedInterfaceFrame::factor_of(const std::vector<int> &held) const
+MatrixXd FixedInterfaceFrame::product(Given which, const Eigen::Ref<const MatrixXd> &X) const
 {
-  return make_factor(factor_name_, {&frame_.C, &frame_.M, held, nullptr, fem::available_memory()});
+  if (!given_)
+    return symmetric_product(which == Given::C ? frame_.C : frame_.M, X);
+  const SparseMatrix &columns = at(which).columns;
+  const MatrixXd      on_q1   = X(q1_, Eigen::all);
+  MatrixXd            Y       = columns * on_q1;
+  factor_->add_product(which, X, Y);
+  Y(q1_, Eigen::all) = exact_product(columns, X);
+  return Y;
+}
+
+MatrixXd FixedInterfaceFrame::energy(const MatrixXd &Psi) const
+{
+  const MatrixXd S = Psi.transpose() * (given_ ? stiffness_times(Psi) : exact_product(frame_.C, Psi));
+  return 0.5 * (S + S.transpose());
+}
+
+void FixedInterfaceFrame::take_back() const
+{
+  if (!given_ || given_->C.nonZeros() > 0)
+    return;
+  for (auto [to, which] : {std::pair(&given_->C, Given::C), std::pair(&given_->M, Given::M)})
+  {
+    const SparseMatrix                 &columns = at(which).columns;
+    SparseMatrix                        beside(columns.rows(), columns.rows()); // rows and columns of q1
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int k = 0; k < columns.outerSize(); ++k)
+      for (SparseMatrix::InnerIterator a(columns, k); a; ++a)
+      {
+        entries.emplace_back(a.row(), q1_[k], a.value());
+        if (!std::binary_search(q1_.begin(), q1_.end(), a.row()))
+          entries.emplace_back(q1_[k], a.row(), a.value());
+      }
+    beside.setFromTriplets(entries.begin(), entries.end());
+    *to = SparseMatrix(factor_->taken_back(which) + beside);
+  }
 }
 
 Inertia FixedInterfaceFrame::below_if_free(double omega)
 {
+  take_back();
   if (!free_factor_)
-    free_factor_ = factor_of({});
+    free_factor_ = make_factor(factor_name_, {&frame_.C, &frame_.M, {}, nullptr, fem::available_memory()});
   return free_factor_->below(omega);
 }
 
 Eigen::MatrixXd FixedInterfaceFrame::constraint_modes() const
 {
-  Eigen::MatrixXd Psi = Eigen::MatrixXd::Zero(frame_.C.rows(), q1_.size());
-  for (std::size_t k = 0; k < q1_.size(); ++k)
-    for (SparseMatrix::InnerIterator c(frame_.C, q1_[k]); c; ++c)
-      Psi(c.row(), k) = -c.value();
+  Eigen::MatrixXd Psi = -C_.columns;
   solve_in_place(Psi);
   for (std::size_t k = 0; k < q1_.size(); ++k)
     Psi(q1_[k], k) = 1.;

@@ -16,7 +16,8 @@ using Eigen::MatrixXd;
 
 FixedInterfaceModes::FixedInterfaceModes(FixedInterfaceFrame &held, const fem::FrameMatrices &frame,
                                          const std::vector<int> &q1, const BlockLanczos::Options &options)
-    : SturmCheckedModes("fixed-interface modes", int(frame.M.rows()) - int(q1.size()) <= dense_limit, options, frame.C),
+    : SturmCheckedModes("fixed-interface modes", int(frame.M.rows()) - int(q1.size()) <= dense_limit, options,
+                        held.stiffness_diagonal()),
       held_(held), frame_(frame)
 {
   for (int i = 0; i < int(frame.M.rows()); ++i)
@@ -32,6 +33,7 @@ int FixedInterfaceModes::n() const
 /// All modes by a dense solver: with few coordinates a Krylov space would be too small.
 LowestModes FixedInterfaceModes::all() const
 {
+  held_.take_back();
   const MatrixXd M = frame_.M, C = frame_.C;
   const auto     modes = dense_modes(C(q2_, q2_), M(q2_, q2_));
   LowestModes all{modes.omega, MatrixXd::Zero(M.rows(), modes.omega.size()), Eigen::VectorXd::Zero(modes.omega.size())};

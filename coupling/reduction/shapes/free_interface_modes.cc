@@ -49,15 +49,15 @@ void find_enough(FreeInterfaceModes &modes, const ReductionOptions &options, int
 FreeInverse::FreeInverse(const FixedInterfaceFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame)
     : held_(held), Psi_(basis.T), S_inverse_(0, 0), R_(basis.T.rows(), 0)
 {
-  const MatrixXd S = reduced_matrices(basis, frame.B, frame.C).C;
+  const MatrixXd S = reduced_matrices(basis, frame.B).C;
   R_               = motions_without_stiffness(S, basis, frame);
   S_inverse_       = inverse_beside(S, R_(basis.q1, Eigen::all));
   if (R_.cols() > 0)
   {
-    const SymmetricEigenSolver mass(R_.transpose() * symmetric_product(frame.M, R_));
+    const SymmetricEigenSolver mass(R_.transpose() * held.mass_times(R_));
     R_ *= mass.eigenvectors() * mass.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
   }
-  MR_ = symmetric_product(frame.M, R_);
+  MR_ = held.mass_times(R_);
 }
 
 void FreeInverse::operator()(Eigen::Ref<MatrixXd> X) const
@@ -71,9 +71,11 @@ void FreeInverse::operator()(Eigen::Ref<MatrixXd> X) const
 
 FreeInterfaceModes::FreeInterfaceModes(FixedInterfaceFrame &held, const ReductionBasis &basis,
                                        const fem::FrameMatrices &frame, const BlockLanczos::Options &options)
-    : SturmCheckedModes("elastic modes with the interface free", int(frame.M.rows()) <= dense_limit, options, frame.C),
+    : SturmCheckedModes("elastic modes with the interface free", int(frame.M.rows()) <= dense_limit, options,
+                        held.stiffness_diagonal()),
       held_(held), frame_(frame), inverse_(held, basis, frame)
 {
+  held.take_back(); // rank 0 searches
 }
 
 int FreeInterfaceModes::n() const

@@ -19,7 +19,17 @@ VectorXd to_unit_diagonal(const MatrixXd &S)
   return S.diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 1.; });
 }
 
+constexpr double suspicious = 1e-6; // eigenvalue of S scaled to unit diagonal: above it no motion is free
+
 } // namespace
+
+bool may_move_freely(const MatrixXd &S)
+{
+  if (S.rows() == 0)
+    return false;
+  const VectorXd d = to_unit_diagonal(S);
+  return !(SymmetricEigenSolver(d.asDiagonal() * S * d.asDiagonal(), WithVectors::no).eigenvalues()(0) > suspicious);
+}
 
 MatrixXd motions_without_stiffness(const MatrixXd &S, const ReductionBasis &basis, const fem::FrameMatrices &frame)
 {
@@ -27,7 +37,6 @@ MatrixXd motions_without_stiffness(const MatrixXd &S, const ReductionBasis &basi
     return MatrixXd(basis.T.rows(), 0);
   const VectorXd             d = to_unit_diagonal(S);
   const SymmetricEigenSolver scaled(d.asDiagonal() * S * d.asDiagonal());
-  constexpr double suspicious = 1e-6; // of motions that may be; above it none is, which saves a search through C
   if (scaled.eigenvalues()(0) > suspicious)
     return MatrixXd(basis.T.rows(), 0);
   if (frame.rigid_motions.cols() == 6)

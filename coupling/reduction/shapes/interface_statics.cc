@@ -1,6 +1,7 @@
 #include "coupling/reduction/shapes/interface_statics.h"
 
 #include "coupling/reduction/shapes/attachment_modes.h"
+#include "coupling/reduction/shapes/interface_flexibility.h"
 
 namespace gestell::coupling
 {
@@ -11,18 +12,18 @@ namespace
 using Eigen::MatrixXd;
 
 FixedInterfaceFrame factorised(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                               const Progress &progress)
+                               const Progress &progress, fem::FrameMatrices *given)
 {
   if (progress)
     progress("factorisation", -1.);
-  return {frame, frame.interface_coordinates(), options.factor, options.eigensolver};
+  return {frame, frame.interface_coordinates(), options.factor, options.eigensolver, given};
 }
 
-MatrixXd acceleration_load(const fem::FrameMatrices &frame)
+MatrixXd acceleration_load(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame)
 {
   if (frame.translations.rows() == 0)
     return MatrixXd(frame.M.rows(), 0);
-  return frame.acceleration_load.rows() > 0 ? frame.acceleration_load : symmetric_product(frame.M, frame.translations);
+  return frame.acceleration_load.rows() > 0 ? frame.acceleration_load : held.mass_times(frame.translations);
 }
 
 } // namespace
@@ -30,21 +31,24 @@ MatrixXd acceleration_load(const fem::FrameMatrices &frame)
 ReductionBasis static_basis(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame)
 {
   ReductionBasis basis;
-  basis.q1 = frame.interface_coordinates();
-  basis.T  = held.constraint_modes();
-  symmetric_product(frame.M, basis.T, basis.M_Psi);
+  basis.q1    = frame.interface_coordinates();
+  basis.T     = held.constraint_modes();
+  basis.M_Psi = held.mass_times(basis.T);
+  basis.C_11  = held.energy(basis.T);
   return basis;
 }
 
 InterfaceStatics::InterfaceStatics(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                                   const Progress &progress)
-    : progress(progress), held(factorised(frame, options, progress))
+                                   const Progress &progress, fem::FrameMatrices *given)
+    : progress(progress), held(factorised(frame, options, progress, given))
 {
   begin("constraint modes");
   basis    = static_basis(held, frame);
-  load     = acceleration_load(frame);
-  response = residual_flexibility(held, basis, frame.M, load);
+  load     = acceleration_load(held, frame);
+  response = residual_flexibility(held, basis, load);
   relief   = options.inertia_relief ? inertia_relief_shapes(held, frame, basis.q1) : MatrixXd(frame.M.rows(), 0);
+  if (may_move_freely(basis.C_11))
+    held.take_back(); // motions of the whole frame follow from its C
 }
 
 void InterfaceStatics::begin(const char *phase, double share) const

@@ -16,9 +16,10 @@ ReductionBasis static_basis(const FixedInterfaceFrame &held, const fem::FrameMat
 /// Common start of every reduction: the factor of C22, the constraint modes, and deflections independent of modes.
 struct InterfaceStatics
 {
-  /// The frame must outlive it.
+  /// The frame must outlive it; `given`: see FixedInterfaceFrame.
   /// @throws std::invalid_argument if a rigid-body mode remains with the interface fixed.
-  InterfaceStatics(const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress);
+  InterfaceStatics(const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress,
+                   fem::FrameMatrices *given = nullptr);
 
   void begin(const char *phase, double share = -1.) const; ///< reports a phase to `progress`
 

@@ -1,7 +1,5 @@
 #include "coupling/reduction/shapes/reduction_basis.h"
 
-#include "coupling/eigensolvers/exact_product.h"
-
 #include <cassert>
 
 namespace gestell::coupling
@@ -68,20 +66,19 @@ void ReductionBasis::truncate(int m)
   omega0.conservativeResize(m);
 }
 
-ReducedMatrices reduced_matrices(const ReductionBasis &basis, const SparseMatrix &B, const SparseMatrix &C)
+ReducedMatrices reduced_matrices(const ReductionBasis &basis, const SparseMatrix &B)
 {
   const int   n1 = basis.n1(), m = basis.m();
-  const auto  Psi   = basis.constraint_modes();
   const auto &M_Psi = basis.M_Psi;
 
   ReducedMatrices star;
   star.M                         = MatrixXd::Identity(n1 + m, n1 + m);
-  star.M.topLeftCorner(n1, n1)   = symmetric(Psi.transpose() * M_Psi);
+  star.M.topLeftCorner(n1, n1)   = symmetric(basis.constraint_modes().transpose() * M_Psi);
   star.M.topRightCorner(n1, m)   = M_Psi.transpose() * basis.fixed_modes();
   star.M.bottomLeftCorner(m, n1) = star.M.topRightCorner(n1, m).transpose();
 
   star.C                                    = MatrixXd::Zero(n1 + m, n1 + m);
-  star.C.topLeftCorner(n1, n1)              = symmetric(Psi.transpose() * exact_product(C, Psi));
+  star.C.topLeftCorner(n1, n1)              = basis.C_11;
   star.C.bottomRightCorner(m, m).diagonal() = basis.omega0.cwiseAbs2();
 
   star.B = MatrixXd::Zero(n1 + m, n1 + m);

@@ -24,6 +24,7 @@ struct ReductionBasis
   std::vector<int> q1;     // interface coordinates, ascending
   Eigen::MatrixXd  T;      // [n x (n1 + m)]
   Eigen::MatrixXd  M_Psi;  // M times the constraint modes [n x n1]
+  Eigen::MatrixXd  C_11;   // C*_11 [n1 x n1]
   Eigen::VectorXd  omega0; // [m] fixed-interface frequencies (5.5.3/17) [rad/s]
 
   int  n1() const { return int(q1.size()); }
@@ -48,11 +49,10 @@ struct ReducedMatrices
  *
  *     M*_11 = Psi^T M Psi,   M*_12 = (M Psi)^T V,   C*_11 = Psi^T C Psi,   B* = T^T B T.
  *
- * C*_11 = C11 - C12 C22^-1 C21 is computed as this energy because errors of Psi enter squared: rigid-body modes remain
- * free.
+ * C*_11 = C11 - C12 C22^-1 C21 is that of the basis, computed as this energy because errors of Psi enter squared:
+ * rigid-body modes remain free.
  */
-ReducedMatrices reduced_matrices(const ReductionBasis &basis, const Eigen::SparseMatrix<double> &B,
-                                 const Eigen::SparseMatrix<double> &C);
+ReducedMatrices reduced_matrices(const ReductionBasis &basis, const Eigen::SparseMatrix<double> &B);
 
 /**
  * Initial values (5.5.3/22, 23): q*_10 = q_10,  q*_20 = diag(1 / omega0^2) (V22^T C21 q_10 + V22^T C22 q_20); the same

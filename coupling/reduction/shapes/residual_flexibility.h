@@ -25,7 +25,7 @@ struct ResidualFlexibility
 
 /// @param loads f [n x k]; its part on q1 is ignored.
 ResidualFlexibility residual_flexibility(const FixedInterfaceFrame &held, const ReductionBasis &basis,
-                                         const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &loads);
+                                         const Eigen::MatrixXd &loads);
 
 /// X itself: the shapes that complete a few modes (reduction.md (16d)).
 Eigen::MatrixXd inertia_shapes(const FixedInterfaceFrame &held, const ReductionBasis &basis);

@@ -133,6 +133,12 @@ TEST(FourRanksOfMpi, FindTheFrequenciesOfThePressThatOneProcessFinds)
   expect_same_frequencies(scene("press.toml") + set(coarse_size), 4);
 }
 
+TEST(EightRanksOfMpi, FindTheFrequenciesOfAPlateThatOneProcessFinds)
+{
+  const Folder folder("mpi_plate");
+  expect_same_frequencies(plate(folder), 8);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, RanksOfMpi, ::testing::Values(1, 2, 4), ::testing::PrintToStringParamName());
 
 TEST(Mpi, ARunFromTheCacheLoadsNothingOnAnyRankButMpi)
@@ -146,6 +152,25 @@ TEST(Mpi, ARunFromTheCacheLoadsNothingOnAnyRankButMpi)
   ASSERT_TRUE(answer.says("libmpi.so"));
   for (const char *library : {"libgestell_frame", "libdeal", "libpetsc", "libslepc", "libgmsh", "libdmumps"})
     EXPECT_FALSE(answer.says(library)) << library;
+}
+
+TEST(Mpi, OfRanksOneReducesTheParts)
+{
+  const Folder folder("mpi_parts");
+  const Answer answer = call(folder, ranks(2), "reduce " + plate(folder, "80 mm") + " --set frame.parts=2");
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_EQ(count(answer.text, "gestell: 1 of 2 ranks are idle while the parts are reduced"), 1) << answer.text;
+}
+
+TEST(Mpi, AFactorOfOneProcessIsRefusedWhereAFrameIsComputed)
+{
+  const Folder      folder("mpi_factor");
+  const std::string reduce  = "reduce " + plate(folder, "80 mm") + " --set reduction.factor=cholmod";
+  const Answer      refused = call(folder, ranks(2), reduce);
+  EXPECT_EQ(refused.exit_code, 2) << refused.text;
+  EXPECT_EQ(count(refused.text, "is a factor of one process"), 1) << refused.text;
+  ASSERT_EQ(call(folder, "", reduce).exit_code, 0);
+  EXPECT_EQ(call(folder, ranks(2), reduce).exit_code, 0) << "a frame from the cache needs none";
 }
 
 TEST(Mpi, WrongInputIsToldOnceAndEndsAllRanks)

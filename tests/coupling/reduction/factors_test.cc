@@ -3,6 +3,8 @@
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/algebra/sparse_cholesky.h"
 #include "coupling/factors/make_factor.h"
+#include "coupling/factors/mumps_factor.h"
+#include "coupling/factors/row_distribution.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/parallel/petsc_session.h"
@@ -21,6 +23,7 @@ namespace
 {
 
 using coupling::LowestModes;
+using coupling::QuietPetsc;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -186,6 +189,26 @@ TEST(FactorOptions, OfMumpsReachItsFactor)
   const FixedLattice lattice;
   const Options      options({{"-reduction_mat_mumps_icntl_22", "1"}, {"-reduction_mat_mumps_ooc_tmpdir", "/nowhere"}});
   EXPECT_THROW(lattice.factor("mumps")->factorise(), coupling::ConvergenceFailure) << "a folder that does not exist";
+}
+
+TEST(MumpsFactor, EliminatesInTheOrderOfItsRows)
+{
+  const FixedLattice              lattice;
+  const fem::Ranks                alone = fem::Ranks::alone();
+  const coupling::RowDistribution rows(alone, &lattice.frame.C, lattice.held);
+  const auto                      C        = rows.distributed(&lattice.frame.C);
+  const auto                      order_of = [&](bool definite)
+  {
+    PetscInt         order = 0;
+    const QuietPetsc quiet;
+    MatMumpsGetInfog(coupling::mumps_factor(alone, C.get(), definite, INFINITY).get(), 7, &order);
+    return order;
+  };
+  constexpr int given = 1, by_degree = 0;
+  EXPECT_EQ(order_of(true), given);
+  EXPECT_EQ(order_of(false), given);
+  const Options options(std::map<std::string, std::string>{{"-reduction_mat_mumps_icntl_7", "0"}});
+  EXPECT_EQ(order_of(true), by_degree) << "an option of the user";
 }
 
 TEST(FactorOptions, OfAPoorSolverAreRefused)

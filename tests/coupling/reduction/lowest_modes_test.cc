@@ -193,17 +193,22 @@ TEST(FixedInterfaceModes, PassedOverAreCountedSearchedForAndFound)
       error = std::max(error, std::abs(omega(j) / exact[j] - 1.));
     return error;
   };
-  coupling::FixedInterfaceFrame held(frame, {});
-  FixedInterfaceModes           modes(held, frame, {}, blocks_of(1));
-  modes.find(20);
-  modes.finish();
-  EXPECT_GT(largest(modes.found().omega), 1e-3);
-  EXPECT_FALSE(modes.confirm());
-  modes.find(20);
-  EXPECT_LT(largest(modes.lowest(20).omega), 1e-10);
-  modes.finish();
-  EXPECT_TRUE(modes.confirm());
-  EXPECT_NE(modes.statement().find("missing at first"), std::string::npos) << modes.statement();
+  for (const bool forgotten : {false, true})
+  {
+    coupling::FixedInterfaceFrame held(frame, {});
+    FixedInterfaceModes           modes(held, frame, {}, blocks_of(1));
+    modes.find(20);
+    modes.finish();
+    EXPECT_GT(largest(modes.found().omega), 1e-3);
+    if (forgotten)
+      modes.forget_shapes();
+    EXPECT_FALSE(modes.confirm());
+    modes.find(20);
+    EXPECT_LT(largest(modes.lowest(20).omega), 1e-10);
+    modes.finish();
+    EXPECT_TRUE(modes.confirm());
+    EXPECT_NE(modes.statement().find("missing at first"), std::string::npos) << modes.statement();
+  }
 }
 
 TEST(FixedInterfaceModes, AreAllFoundInOneCall)

@@ -45,12 +45,33 @@ TEST(Team, SolvesAndFindsModesAsOneProcessDoes)
     const Answer answer = trial("compare", ranks);
     EXPECT_EQ(answer.exit_code, 0) << answer.text;
     EXPECT_FALSE(answer.says("differs")) << answer.text;
-    for (const char *what : {"regularity", "solution", "frequencies", "mass of the modes", "shapes", "number",
-                             "rest by block-lanczos", "mass by block-lanczos", "rest by krylov-schur",
-                             "mass by krylov-schur", "rest by lobpcg", "mass by lobpcg",
-                             "solution with the matrix given away", "refusal of what is not positive",
-                             "refusal of a factor of one process"})
+    for (const char *what :
+         {"regularity", "solution", "frequencies", "mass of the modes", "shapes", "number", "rest by block-lanczos",
+          "mass by block-lanczos", "rest by krylov-schur", "mass by krylov-schur", "rest by lobpcg", "mass by lobpcg",
+          "solution with the matrix given away", "refusal of what is not positive",
+          "refusal of a factor of one process"})
       EXPECT_TRUE(answer.says("the " + std::string(what) + " agrees")) << what << answer.text;
+  }
+}
+
+TEST(Team, OfSixteenRanksGivesAShareOfTheFactorToEach)
+{
+  const Answer answer = trial("shares", 16);
+  EXPECT_EQ(answer.exit_code, 0) << answer.text;
+  EXPECT_TRUE(answer.says("16 ranks took part\nthen 16 ranks took part")) << answer.text;
+}
+
+TEST(Team, ReducesAFrameWhoseMatricesItHas)
+{
+  for (const int ranks : {2, 3})
+  {
+    const Answer answer = trial("give", ranks);
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    EXPECT_FALSE(answer.says("differs")) << answer.text;
+    EXPECT_TRUE(answer.says("a floating frame by static shapes agrees")) << answer.text;
+    EXPECT_TRUE(answer.says("the frame is unconstrained with its interface fixed (C22 is singular): translation"))
+        << answer.text;
+    EXPECT_TRUE(answer.says("the matrix taken back agrees")) << answer.text;
   }
 }
 

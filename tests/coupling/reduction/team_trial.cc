@@ -2,9 +2,12 @@
 
 #include "coupling/algebra/sparse_cholesky.h"
 #include "coupling/factors/make_factor.h"
+#include "coupling/factors/mumps_factor.h"
 #include "coupling/factors/petsc_factor.h"
+#include "coupling/factors/row_distribution.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/reduction/reduce_frame.h"
+#include "fem/parallel/petsc_session.h"
 #include "tests/support/lattice.h"
 
 #include <cmath>
@@ -20,6 +23,8 @@ using gestell::fem::Ranks;
 
 constexpr int trial_order = 1000;
 
+int shares_of_factor(const Ranks &ranks);
+
 /// @returns on rank 0 the number of ranks that took part.
 int trial(const Ranks &ranks, std::string how)
 {
@@ -32,17 +37,41 @@ int trial(const Ranks &ranks, std::string how)
       });
   if (how == "abrupt" && ranks.rank() == 1)
     ranks.abort("this rank broke down");
+  if (how == "shares")
+    return shares_of_factor(ranks);
   const int one = 1;
   int       sum = 0;
   MPI_Reduce(&one, &sum, 1, MPI_INT, MPI_SUM, 0, ranks.comm()); // where the others wait
   return sum;
 }
 
-gestell::fem::FrameMatrices lattice_frame()
+gestell::fem::FrameMatrices lattice_frame(double foundation = 3e6)
 {
   gestell::test::Lattice lattice;
+  lattice.foundation = foundation;
   lattice.nx = 10, lattice.ny = 4, lattice.nz = 10;
   return gestell::test::frame_of(lattice);
+}
+
+/// @returns the number of ranks with a share of the factor of a plate, if all were told to keep to the order of rows.
+int shares_of_factor(const Ranks &ranks)
+{
+  using namespace gestell::coupling;
+  gestell::fem::petsc_session();
+  gestell::test::Lattice lattice;
+  lattice.nx = 60, lattice.ny = 60, lattice.nz = 1;
+  const auto            frame = gestell::test::frame_of(lattice);
+  const RowDistribution rows(ranks, ranks.first() ? &frame.C : nullptr, frame.interface_coordinates());
+  const auto            C = rows.distributed(ranks.first() ? &frame.C : nullptr);
+  const QuietPetsc      quiet;
+  const auto            factor  = mumps_factor(ranks, C.get(), true, INFINITY);
+  PetscInt              entries = 0, order = 0;
+  MatMumpsGetInfo(factor.get(), 9, &entries);
+  MatMumpsGetInfog(factor.get(), 7, &order);
+  constexpr int given = 1;
+  double        share = entries > 0 && order == given ? 1. : 0.;
+  ranks.sum(&share, 1);
+  return int(share);
 }
 
 void tell(const std::string &what, bool agrees)
@@ -96,7 +125,7 @@ void compare_with_one_process(const Ranks &ranks)
   X                                 = loads;
   whole->factorise();
   whole->solve_in_place(X);
-  tell("the solution with the matrix given away", given.size() == 0 && (X - Y).norm() < 1e-11 * Y.norm());
+  tell("the solution with the matrix given away", given.nonZeros() == 0 && (X - Y).norm() < 1e-11 * Y.norm());
 
   given = frame.C;
   given.coeffRef(250, 250) *= -1.;
@@ -118,6 +147,47 @@ void compare_with_one_process(const Ranks &ranks)
   {
     tell("the refusal of a factor of one process", ranks.size() > 1);
   }
+}
+
+/// Reductions with M and C on all ranks against those with M and C on rank 0.
+void give_matrices_away()
+{
+  using namespace gestell::coupling;
+  ReductionOptions counted, chosen, free, guyan;
+  counted.n_modes  = 12;
+  chosen.frequency = 30.;
+  free.n_modes = 8, free.method = "free-interface";
+  guyan.method     = "guyan";
+  const auto close = [](const Eigen::MatrixXd &A, const Eigen::MatrixXd &B)
+  { return (A - B).norm() <= 1e-9 * B.norm(); };
+  const auto sizes = [](const Eigen::MatrixXd &A) { return Eigen::MatrixXd(A.cwiseAbs()); }; // modes have any sign
+  for (const bool floats : {false, true})
+    for (const auto &[options, what] :
+         {std::pair(counted, "with counted modes"), std::pair(chosen, "with chosen modes"),
+          std::pair(free, "by free modes"), std::pair(guyan, "by static shapes")})
+    {
+      auto       frame    = lattice_frame(floats ? 0. : 3e6);
+      const auto expected = reduce_with_basis(frame, options).frame;
+      const auto reduced  = reduce_with_basis(frame, options, {}, &frame).frame;
+      tell(std::string(floats ? "a floating" : "a supported") + " frame " + what,
+           close(reduced.frequencies_hz, expected.frequencies_hz) && close(sizes(reduced.M), sizes(expected.M)) &&
+               close(sizes(reduced.B), sizes(expected.B)) && close(sizes(reduced.C), sizes(expected.C)) &&
+               reduced.facts.free_motions == expected.facts.free_motions);
+      tell(std::string("the place of M and C ") + what,
+           (frame.C.nonZeros() == 0) == (!floats && options.method != "free-interface"));
+    }
+  auto loose = lattice_frame(0.);
+  loose.interfaces.clear();
+  const auto whole = loose.C;
+  try
+  {
+    reduce_with_basis(loose, counted, {}, &loose);
+  }
+  catch (const std::invalid_argument &refusal)
+  {
+    std::cout << refusal.what() << std::endl;
+  }
+  tell("the matrix taken back", (loose.C - whole).norm() == 0. && loose.C.nonZeros() == whole.nonZeros());
 }
 
 /// Looks for modes up to all there are, and beyond: few points have mass.
@@ -172,6 +242,8 @@ int lead(const Ranks &ranks, const std::string &how)
     exhaust_modes();
   if (how == "none")
     reduce_without_modes();
+  if (how == "give")
+    give_matrices_away();
   if (how == "compare")
     compare_with_one_process(ranks);
   try
