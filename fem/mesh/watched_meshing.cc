@@ -27,18 +27,30 @@ std::size_t number_of_triangles()
   return n;
 }
 
-void mesh_by_hxt()
+/// Meshes anew, up to this dimension, by a method of gmsh.
+void mesh_by(const char *option, double method, int dimension, const gmsh::vectorpair &without)
 {
-  constexpr int    hxt   = 10; // number of gmsh
-  const char      *which = "Mesh.Algorithm3D";
-  double           before;
+  double before;
+  gmsh::option::getNumber(option, before);
+  gmsh::option::setNumber(option, method);
+  gmsh::model::mesh::clear(without); // what the last attempt left
+  gmsh::model::mesh::generate(dimension);
+  gmsh::option::setNumber(option, before);
+}
+
+/// gmsh's frontal method can leave two equal triangles at the tip of a cone (4.13).
+void mesh_surfaces_by_delaunay()
+{
+  constexpr double delaunay = 5.; // number of gmsh
+  mesh_by("Mesh.Algorithm", delaunay, 2, {});
+}
+
+void mesh_volumes_by_hxt()
+{
+  constexpr double hxt = 10.; // number of gmsh
   gmsh::vectorpair volumes;
-  gmsh::option::getNumber(which, before);
   gmsh::model::getEntities(volumes, 3);
-  gmsh::model::mesh::clear(volumes); // what the first attempt left
-  gmsh::option::setNumber(which, hxt);
-  gmsh::model::mesh::generate(3);
-  gmsh::option::setNumber(which, before);
+  mesh_by("Mesh.Algorithm3D", hxt, 3, volumes);
 }
 
 } // namespace
@@ -88,18 +100,29 @@ void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpeci
 void mesh_volumes(CadModel &model, const FrameSpecification &specification, const GmshSession &session,
                   const VolumeMesher &delaunay)
 {
+  const VolumeMesher mesh = delaunay ? delaunay : [] { gmsh::model::mesh::generate(3); };
+  std::string        note;
   try
   {
-    session.run(
-        delaunay ? delaunay : [] { gmsh::model::mesh::generate(3); }, "", "");
+    session.run(mesh, "", "");
     return;
   }
   catch (const std::invalid_argument &failure)
   {
-    model.notes.push_back(std::string("gmsh's Delaunay method cannot mesh the volume (") + failure.what() +
-                          "); its method HXT succeeded, but gives a different mesh every time");
+    note = std::string("gmsh's Delaunay method cannot mesh the volume (") + failure.what() + "); ";
   }
-  session.run(mesh_by_hxt, head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
+  try
+  {
+    session.run(mesh_surfaces_by_delaunay, "", "");
+    session.run(mesh, "", "");
+    model.notes.push_back(note + "it succeeded after this method meshed the surfaces as well");
+    return;
+  }
+  catch (const std::invalid_argument &)
+  {
+    model.notes.push_back(note + "its method HXT succeeded, but gives a different mesh every time");
+  }
+  session.run(mesh_volumes_by_hxt, head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
 }
 
 } // namespace gestell::fem
