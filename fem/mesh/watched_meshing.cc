@@ -27,6 +27,20 @@ std::size_t number_of_triangles()
   return n;
 }
 
+/// gmsh reports no error for some solids that it leaves without cells.
+void require_cells_in_all_volumes()
+{
+  gmsh::vectorpair volumes;
+  gmsh::model::getEntities(volumes, 3);
+  for (const auto &[dim, tag] : volumes)
+  {
+    std::vector<int> types;
+    gmsh::model::mesh::getElementTypes(types, dim, tag);
+    if (types.empty())
+      throw std::runtime_error("a solid gets no cells");
+  }
+}
+
 /// Meshes anew, up to this dimension, by a method of gmsh.
 void mesh_by(const char *option, double method, int dimension, const gmsh::vectorpair &without)
 {
@@ -100,8 +114,12 @@ void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpeci
 void mesh_volumes(CadModel &model, const FrameSpecification &specification, const GmshSession &session,
                   const VolumeMesher &delaunay)
 {
-  const VolumeMesher mesh = delaunay ? delaunay : [] { gmsh::model::mesh::generate(3); };
-  std::string        note;
+  const auto mesh = [&]
+  {
+    delaunay ? delaunay() : gmsh::model::mesh::generate(3);
+    require_cells_in_all_volumes();
+  };
+  std::string note;
   try
   {
     session.run(mesh, "", "");
