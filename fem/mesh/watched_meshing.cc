@@ -4,6 +4,7 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -27,44 +28,53 @@ std::size_t number_of_triangles()
   return n;
 }
 
-/// gmsh reports no error for some solids that it leaves without cells.
-void require_cells_in_all_volumes()
+void set_option(const char *name, double value, double &before)
 {
-  gmsh::vectorpair volumes;
-  gmsh::model::getEntities(volumes, 3);
-  for (const auto &[dim, tag] : volumes)
-  {
-    std::vector<int> types;
-    gmsh::model::mesh::getElementTypes(types, dim, tag);
-    if (types.empty())
-      throw std::runtime_error("a solid gets no cells");
-  }
+  gmsh::option::getNumber(name, before);
+  gmsh::option::setNumber(name, value);
 }
 
-/// Meshes anew, up to this dimension, by a method of gmsh.
-void mesh_by(const char *option, double method, int dimension, const gmsh::vectorpair &without)
+/// Meshes up to this dimension.  An error does not leave gmsh by its own exception, since version 4.13 does not mesh
+/// again after it.
+/// @throws std::invalid_argument with the first error
+void mesh_to_the_end(int dimension)
 {
-  double before;
-  gmsh::option::getNumber(option, before);
-  gmsh::option::setNumber(option, method);
-  gmsh::model::mesh::clear(without); // what the last attempt left
+  constexpr double         no_exception = 1.; // number of gmsh
+  double                   before;
+  std::vector<std::string> lines;
+  gmsh::logger::get(lines);
+  const auto n_before = static_cast<std::ptrdiff_t>(lines.size());
+  set_option("General.AbortOnError", no_exception, before);
   gmsh::model::mesh::generate(dimension);
-  gmsh::option::setNumber(option, before);
+  gmsh::option::setNumber("General.AbortOnError", before);
+  gmsh::logger::get(lines);
+  const auto error = std::find_if(lines.begin() + n_before, lines.end(),
+                                  [](const std::string &line) { return line.rfind("Error: ", 0) == 0; });
+  if (error != lines.end())
+    throw std::invalid_argument(error->substr(std::string("Error: ").size()));
 }
 
 /// gmsh's frontal method can leave two equal triangles at the tip of a cone (4.13).
 void mesh_surfaces_by_delaunay()
 {
   constexpr double delaunay = 5.; // number of gmsh
-  mesh_by("Mesh.Algorithm", delaunay, 2, {});
+  double           before;
+  set_option("Mesh.Algorithm", delaunay, before);
+  gmsh::model::mesh::clear();
+  mesh_to_the_end(2);
+  gmsh::option::setNumber("Mesh.Algorithm", before);
 }
 
 void mesh_volumes_by_hxt()
 {
   constexpr double hxt = 10.; // number of gmsh
+  double           before;
   gmsh::vectorpair volumes;
+  set_option("Mesh.Algorithm3D", hxt, before);
   gmsh::model::getEntities(volumes, 3);
-  mesh_by("Mesh.Algorithm3D", hxt, 3, volumes);
+  gmsh::model::mesh::clear(volumes); // what the attempts before left
+  gmsh::model::mesh::generate(3);
+  gmsh::option::setNumber("Mesh.Algorithm3D", before);
 }
 
 } // namespace
@@ -114,12 +124,8 @@ void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpeci
 void mesh_volumes(CadModel &model, const FrameSpecification &specification, const GmshSession &session,
                   const VolumeMesher &delaunay)
 {
-  const auto mesh = [&]
-  {
-    delaunay ? delaunay() : gmsh::model::mesh::generate(3);
-    require_cells_in_all_volumes();
-  };
-  std::string note;
+  const VolumeMesher mesh = delaunay ? delaunay : [] { mesh_to_the_end(3); };
+  std::string        note;
   try
   {
     session.run(mesh, "", "");
