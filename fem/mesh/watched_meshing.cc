@@ -4,6 +4,7 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -27,18 +28,53 @@ std::size_t number_of_triangles()
   return n;
 }
 
-void mesh_by_hxt()
+void set_option(const char *name, double value, double &before)
 {
-  constexpr int    hxt   = 10; // number of gmsh
-  const char      *which = "Mesh.Algorithm3D";
+  gmsh::option::getNumber(name, before);
+  gmsh::option::setNumber(name, value);
+}
+
+/// Meshes up to this dimension.  An error does not leave gmsh by its own exception, since version 4.13 does not mesh
+/// again after it.
+/// @throws std::invalid_argument with the first error
+void mesh_to_the_end(int dimension)
+{
+  constexpr double         no_exception = 1.; // number of gmsh
+  double                   before;
+  std::vector<std::string> lines;
+  gmsh::logger::get(lines);
+  const auto n_before = static_cast<std::ptrdiff_t>(lines.size());
+  set_option("General.AbortOnError", no_exception, before);
+  gmsh::model::mesh::generate(dimension);
+  gmsh::option::setNumber("General.AbortOnError", before);
+  gmsh::logger::get(lines);
+  const auto error = std::find_if(lines.begin() + n_before, lines.end(),
+                                  [](const std::string &line) { return line.rfind("Error: ", 0) == 0; });
+  if (error != lines.end())
+    throw std::invalid_argument(error->substr(std::string("Error: ").size()));
+}
+
+/// gmsh's frontal method can leave two equal triangles at the tip of a cone (4.13).
+void mesh_surfaces_by_delaunay()
+{
+  constexpr double delaunay = 5.; // number of gmsh
+  double           before;
+  set_option("Mesh.Algorithm", delaunay, before);
+  gmsh::model::mesh::clear();
+  mesh_to_the_end(2);
+  gmsh::option::setNumber("Mesh.Algorithm", before);
+}
+
+void mesh_volumes_by_hxt()
+{
+  constexpr double hxt = 10.; // number of gmsh
   double           before;
   gmsh::vectorpair volumes;
-  gmsh::option::getNumber(which, before);
+  set_option("Mesh.Algorithm3D", hxt, before);
   gmsh::model::getEntities(volumes, 3);
-  gmsh::model::mesh::clear(volumes); // what the first attempt left
-  gmsh::option::setNumber(which, hxt);
+  gmsh::model::mesh::clear(volumes); // what the attempts before left
   gmsh::model::mesh::generate(3);
-  gmsh::option::setNumber(which, before);
+  gmsh::option::setNumber("Mesh.Algorithm3D", before);
 }
 
 } // namespace
@@ -88,18 +124,29 @@ void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpeci
 void mesh_volumes(CadModel &model, const FrameSpecification &specification, const GmshSession &session,
                   const VolumeMesher &delaunay)
 {
+  const VolumeMesher mesh = delaunay ? delaunay : [] { mesh_to_the_end(3); };
+  std::string        note;
   try
   {
-    session.run(
-        delaunay ? delaunay : [] { gmsh::model::mesh::generate(3); }, "", "");
+    session.run(mesh, "", "");
     return;
   }
   catch (const std::invalid_argument &failure)
   {
-    model.notes.push_back(std::string("gmsh's Delaunay method cannot mesh the volume (") + failure.what() +
-                          "); its method HXT succeeded, but gives a different mesh every time");
+    note = std::string("gmsh's Delaunay method cannot mesh the volume (") + failure.what() + "); ";
   }
-  session.run(mesh_by_hxt, head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
+  try
+  {
+    session.run(mesh_surfaces_by_delaunay, "", "");
+    session.run(mesh, "", "");
+    model.notes.push_back(note + "it succeeded after this method meshed the surfaces as well");
+    return;
+  }
+  catch (const std::invalid_argument &)
+  {
+    model.notes.push_back(note + "its method HXT succeeded, but gives a different mesh every time");
+  }
+  session.run(mesh_volumes_by_hxt, head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
 }
 
 } // namespace gestell::fem

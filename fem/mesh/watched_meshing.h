@@ -38,10 +38,11 @@ using VolumeMesher = std::function<void()>;
 
 /**
  * Meshes volumes with Delaunay, because gmsh's HXT numbers points by their memory address, so that every run would give
- * a different mesh.  HXT is used with a note of the model if Delaunay fails.
+ * a different mesh.  If Delaunay fails, the surfaces are meshed by gmsh's Delaunay method as well, in place of its
+ * frontal one; HXT is the last attempt.  Both put a note into the model.
  *
- * @param delaunay  the first attempt; empty: that of gmsh.
- * @throws std::invalid_argument if both fail
+ * @param delaunay  the first and second attempt; empty: that of gmsh.
+ * @throws std::invalid_argument if all fail
  */
 void mesh_volumes(CadModel &model, const FrameSpecification &specification, const GmshSession &session,
                   const VolumeMesher &delaunay = {});

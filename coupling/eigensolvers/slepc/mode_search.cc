@@ -157,8 +157,10 @@ public:
     require(EPSSetOptionsPrefix(eps, prefix));
     require(EPSSetType(eps, slepc_name().c_str()));
     require(EPSSetPurify(eps, PETSC_FALSE)); // one solution per mode, for directions without mass only
-    constexpr double tolerance    = 1e-10;   // relative residual of 1 / omega^2; the frequencies are far better
-    constexpr int    max_restarts = 1000;    // a safety net: searches end after some tens, or not at all
+    if (is(EPSLOBPCG))                       // a block returns a mode twice where its Gram matrix is almost singular
+      require(EPSLOBPCGSetBlockSize(eps, 1));
+    constexpr double tolerance    = 1e-10; // relative residual of 1 / omega^2; the frequencies are far better
+    constexpr int    max_restarts = 1000;  // a safety net: searches end after some tens, or not at all
     require(EPSSetTolerances(eps, tolerance, max_restarts));
     require(EPSSetFromOptions(eps));
     set_transformation();
@@ -271,7 +273,8 @@ private:
     {
       // relative residual of methods that multiply by C: it stops at rounding
       constexpr double least_squares = 1e-8;
-      require(EPSSetTolerances(get(), least_squares, PETSC_DEFAULT));
+      constexpr int    max_steps     = 100000; // a safety net: each mode takes some tens
+      require(EPSSetTolerances(get(), least_squares, max_steps));
       require(EPSSetWhichEigenpairs(get(), EPS_SMALLEST_REAL));
       require(STSetType(st, STPRECOND));
     }

@@ -15,7 +15,8 @@ namespace gestell::fem
 namespace
 {
 
-/// A second model of gmsh for the lifetime of this object; the current model is restored after it.
+/// A second model of gmsh for the lifetime of this object; the current model is restored after it.  The sides of the
+/// drawing determine the size of its cells.
 class ModelAside
 {
 public:
@@ -23,14 +24,18 @@ public:
   {
     gmsh::model::getCurrent(before_);
     gmsh::option::getNumber("Mesh.Algorithm", algorithm_);
+    gmsh::option::getNumber("Mesh.MeshSizeMax", size_);
     gmsh::model::add("section of a plate");
-    constexpr double frontal_delaunay = 6.; // number of gmsh; 8, for quadrilaterals, crashes in 4.8
+    constexpr double frontal_delaunay = 6.;   // number of gmsh; 8, for quadrilaterals, crashes in 4.8
+    constexpr double no_limit         = 1e22; // of gmsh
     gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay);
+    gmsh::option::setNumber("Mesh.MeshSizeMax", no_limit);
   }
   ~ModelAside()
   {
     gmsh::model::remove();
     gmsh::option::setNumber("Mesh.Algorithm", algorithm_);
+    gmsh::option::setNumber("Mesh.MeshSizeMax", size_);
     gmsh::model::setCurrent(before_);
   }
   ModelAside(const ModelAside &)            = delete;
@@ -38,7 +43,7 @@ public:
 
 private:
   std::string before_;
-  double      algorithm_ = 0.;
+  double      algorithm_ = 0., size_ = 0.;
 };
 
 /// Lengths are measured in the extent of the outline, as gmsh's tolerances are absolute.

@@ -145,7 +145,8 @@ PetscOwned<Mat> matrix_of(const SparseMatrix &A, const char *type)
   MatSetType(result, type);
   MatSeqAIJSetPreallocation(result, 0, entries.data());
   MatSeqSBAIJSetPreallocation(result, 1, 0, entries.data());
-  MatSetOption(result, MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE);
+  if (type == std::string(MATSEQSBAIJ))
+    MatSetOption(result, MAT_IGNORE_LOWER_TRIANGULAR, PETSC_TRUE);
   for (int j = 0; j < A.outerSize(); ++j)
     for (SparseMatrix::InnerIterator a(A, j); a; ++a)
       require_petsc(MatSetValue(result, int(a.row()), j, a.value(), INSERT_VALUES), "test");

@@ -165,6 +165,14 @@ TEST(InpMesh, WithoutItsLastCellsIsToldByTheSurfaceThatLostThem)
               AllOf(HasSubstr("surface \"SURFACE"), HasSubstr("truncated")));
 }
 
+/// Whether a line of a .msh file is a cell at node 1, a corner of the box; such cells have sides on its surfaces.
+bool is_cell_at_corner(const std::string &line, int n_nodes)
+{
+  std::istringstream     words(line);
+  const std::vector<int> numbers{std::istream_iterator<int>(words), {}}; // number, kind, 2, two tags, nodes
+  return int(numbers.size()) == 5 + n_nodes && std::count(numbers.begin() + 5, numbers.end(), 1) > 0;
+}
+
 TEST(MshMesh, WithoutSomeOfItsCellsIsToldByTheSurfaceThatLostThem)
 {
   const std::pair<Cells, int> kinds[] = {{Cells::tetrahedra, 4}, {Cells::prisms, 6}, {Cells::hexahedra, 8}};
@@ -177,14 +185,13 @@ TEST(MshMesh, WithoutSomeOfItsCellsIsToldByTheSurfaceThatLostThem)
     std::string        line, cut;
     int                n_left_out = 0;
     for (bool elements = false; std::getline(lines, line); elements |= line == "$Elements")
-      if (elements && n_left_out < 10 &&
-          std::count(line.begin(), line.end(), ' ') == 4 + n_nodes) // number, kind, 2 tags, nodes
+      if (elements && is_cell_at_corner(line, n_nodes))
         ++n_left_out;
       else
         cut += line + "\n";
     const std::size_t count = cut.find("$Elements\n") + 10;
     cut.replace(count, cut.find('\n', count) - count, std::to_string(std::stoi(cut.substr(count)) - n_left_out));
-    EXPECT_EQ(n_left_out, 10);
+    EXPECT_GE(n_left_out, 1);
     EXPECT_THAT(notes_of("mesh.msh", cut), AllOf(HasSubstr("lie on no cell"), HasSubstr("truncated")));
   }
 }

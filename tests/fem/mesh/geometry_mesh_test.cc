@@ -341,4 +341,29 @@ TEST(Mesher, TakesTheFastMethodWhereDelaunayFailsAndSaysSo)
   EXPECT_EQ(model.notes.size(), 1u);
 }
 
+TEST(Mesher, MeshesTheSurfacesByAnotherMethodBeforeTheFastOne)
+{
+  const GmshSession session;
+  CadModel          model;
+  gmsh::option::setNumber("Mesh.MeshSizeMax", 0.3);
+  gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.);
+  gmsh::model::occ::synchronize();
+  gmsh::model::mesh::generate(2);
+  std::vector<double> methods;
+  const auto          fails_once = [&]
+  {
+    methods.emplace_back();
+    gmsh::option::getNumber("Mesh.Algorithm", methods.back());
+    if (methods.size() == 1u)
+      throw std::runtime_error("Invalid boundary mesh (overlapping facets)");
+    gmsh::model::mesh::generate(3);
+  };
+  mesh_volumes(model, FrameSpecification(), session, fails_once);
+  EXPECT_EQ(methods.size(), 2u);
+  EXPECT_EQ(methods.front(), methods.back()) << "the option is as before";
+  EXPECT_NEAR(volume_in_gmsh(), 1., 1e-12);
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_NE(model.notes[0].find("(Invalid boundary mesh (overlapping facets)); it succeeded after"), std::string::npos);
+}
+
 } // namespace
