@@ -81,20 +81,20 @@ double skin_of(const fem::Mesh &mesh)
 }
 
 /// The number of parts with the least memory, 1 included, or the one given.
-fem::CellParts parts_of(const fem::Discretisation &discretisation, const fem::Mesh &mesh,
+fem::CellParts parts_of(const fem::Discretisation &discretisation, double kappa, const fem::Mesh &mesh,
                         const fem::FrameSpecification &frame)
 {
   const fem::MeshError &cells = *discretisation.mesh_error;
   if (frame.parts > 0)
     return cells.parts(frame.parts, frame.place);
-  const double kappa = fem::compactness(fem::curved_volume(mesh), skin_of(mesh));
-  int          best  = 1;
-  double       least = fem::reduction_memory(double(discretisation.matrices.M.rows()), kappa);
+  int    best  = 1;
+  double least = fem::reduction_memory(double(discretisation.matrices.M.rows()), kappa);
   for (const int number : {2, 3, 4, 6, 8, 12})
   {
     if (number > mesh.n_cells())
       break;
-    const double memory = memory_of_parts(cells.parts(number, frame.place), discretisation.matrices, kappa);
+    const PartsMemory needed = memory_of_parts(cells.parts(number, frame.place), discretisation.matrices, kappa);
+    const double      memory = std::max(needed.part, needed.joined);
     if (memory < least)
     {
       least = memory;
@@ -166,11 +166,16 @@ public:
     if (progress)
       progress("assembly", -1.);
     fem::Discretisation  discretisation = fem::discretise_for_parts(mesh, frame);
-    const fem::CellParts parts          = parts_of(discretisation, mesh, frame);
+    const double         kappa          = fem::compactness(fem::curved_volume(mesh), skin_of(mesh));
+    const fem::CellParts parts          = parts_of(discretisation, kappa, mesh, frame);
     if (parts.size() == 1)
       return coupling::assemble(mesh, frame, options, progress).reduced;
-    ReducedModel reduced      = reduce_in_parts(discretisation.matrices, parts, frame.rayleigh_mass,
-                                                frame.rayleigh_stiffness, options, frame.place, progress);
+    use_blas_threads(1); // processes side by side instead: equal results for any number of them
+    const double memory       = memory_of_parts(parts, discretisation.matrices, kappa).part;
+    const int    fitting      = int(std::min(fem::available_memory() / memory, double(parts.size())));
+    ReducedModel reduced      = reduce_in_parts(discretisation.matrices, parts, options,
+                                                {frame.rayleigh_mass, frame.rayleigh_stiffness, frame.place,
+                                                 std::max(1, std::min(jobs_requested(), fitting)), progress});
     discretisation.matrices.C = fem::SparseMatrix();
     add_mesh_statement(reduced, discretisation, mesh, progress);
     return std::move(reduced.frame);

@@ -4,10 +4,16 @@
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
-#include "tests/support/test.h"
+#include "tests/support/frame_folder.h"
+#include "tests/support/refusal.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <set>
 
 namespace gestell::test
 {
@@ -65,12 +71,13 @@ std::vector<CutCase> cut_cases()
           loaded_beam("of bricks", brick_mesh(n, size), average, clamp), std::move(damped)};
 }
 
-ReducedFrame reduced_in_parts(const CutCase &frame, int n_parts, const coupling::ReductionOptions &options = {})
+ReducedFrame reduced_in_parts(const CutCase &frame, int n_parts, const coupling::ReductionOptions &options = {},
+                              int at_once = 1)
 {
   const fem::Discretisation of = fem::discretise_for_parts(frame.mesh, frame.specification);
-  return reduce_in_parts(of.matrices, of.mesh_error->parts(n_parts, frame.specification.place),
-                         frame.specification.rayleigh_mass, frame.specification.rayleigh_stiffness, options,
-                         frame.specification.place, {})
+  return reduce_in_parts(of.matrices, of.mesh_error->parts(n_parts, frame.specification.place), options,
+                         {frame.specification.rayleigh_mass, frame.specification.rayleigh_stiffness,
+                          frame.specification.place, at_once})
       .frame;
 }
 
@@ -101,7 +108,128 @@ TEST(CellParts, AddUpToTheWhole)
   }
 }
 
-TEST(FrameInParts, HasTheFrequenciesStaticsAndOutputsOfTheWhole)
+/// Parts are kept in a cache of their own.
+class FrameInParts : public FrameFolder
+{
+protected:
+  /// Files of the cache, each with its identity: a file that is written again gets another one.
+  std::set<std::pair<std::string, ino_t>> files() const
+  {
+    std::set<std::pair<std::string, ino_t>> found;
+    for (const auto &entry : std::filesystem::directory_iterator(folder))
+    {
+      struct stat status = {};
+      EXPECT_EQ(::stat(entry.path().c_str(), &status), 0);
+      found.emplace(entry.path().filename().string(), status.st_ino);
+    }
+    return found;
+  }
+  void empty_cache() const
+  {
+    for (const auto &[name, identity] : files())
+      std::filesystem::remove(folder / name);
+  }
+};
+
+void expect_equal(const ReducedFrame &a, const ReducedFrame &b)
+{
+  EXPECT_EQ(a.M, b.M);
+  EXPECT_EQ(a.B, b.B);
+  EXPECT_EQ(a.C, b.C);
+  EXPECT_EQ(a.frequencies_hz, b.frequencies_hz);
+  EXPECT_EQ(a.translations_load, b.translations_load);
+  EXPECT_EQ(a.displacement, b.displacement);
+  EXPECT_EQ(a.stress.mean, b.stress.mean);
+  EXPECT_EQ(a.statements, b.statements);
+}
+
+TEST_F(FrameInParts, IsTheSameSideBySideAndInOneProcess)
+{
+  for (const CutCase &frame : {cut_cases().front(), cut_cases().back()})
+  {
+    SCOPED_TRACE(frame.name);
+    const ReducedFrame in_turn = reduced_in_parts(frame, 5);
+    EXPECT_EQ(files().size(), 5u);
+    empty_cache();
+    expect_equal(reduced_in_parts(frame, 5, {}, 3), in_turn);
+    empty_cache();
+    setenv("GESTELL_ONE_PROCESS", "1", 1);
+    expect_equal(reduced_in_parts(frame, 5), in_turn);
+    unsetenv("GESTELL_ONE_PROCESS");
+    empty_cache();
+  }
+}
+
+TEST_F(FrameInParts, TakesPartsThatAreDoneFromTheCache)
+{
+  const CutCase      frame = cut_cases().front();
+  const ReducedFrame first = reduced_in_parts(frame, 4);
+  const auto         all   = files();
+  ASSERT_EQ(all.size(), 4u);
+  expect_equal(reduced_in_parts(frame, 4, {}, 2), first);
+  EXPECT_EQ(files(), all);
+
+  // interrupted before the last one, and a damaged one: these two are made again
+  std::filesystem::remove(folder / all.begin()->first);
+  std::filesystem::resize_file(folder / all.rbegin()->first, 1000);
+  expect_equal(reduced_in_parts(frame, 4), first);
+  const auto  repaired = files();
+  std::size_t kept     = 0;
+  for (const auto &file : repaired)
+    kept += all.count(file);
+  EXPECT_EQ(repaired.size(), 4u);
+  EXPECT_EQ(kept, 2u);
+
+  coupling::ReductionOptions other; // of the joined parts only
+  other.method = "guyan";
+  reduced_in_parts(frame, 4, other);
+  EXPECT_EQ(files(), repaired);
+  CutCase changed                      = frame; // at one end
+  changed.specification.masses[0].mass = 41.;
+  reduced_in_parts(changed, 4);
+  EXPECT_EQ(files().size(), 5u);
+}
+
+TEST_F(FrameInParts, ReducesWithoutACacheThatCanBeWritten)
+{
+  const CutCase      frame = cut_cases().front();
+  const ReducedFrame kept  = reduced_in_parts(frame, 3);
+  setenv("GESTELL_CACHE", "/proc/none", 1);
+  expect_equal(reduced_in_parts(frame, 3), kept);
+}
+
+TEST_F(FrameInParts, EndsWithTheMessageOfAPartThatFails)
+{
+  CutCase loose = cut_cases().front();
+  loose.specification.supports.clear();
+  loose.specification.masses.clear();
+  loose.specification.cuts.clear();
+  // another body beside it, which nothing holds
+  const fem::Mesh other = loose.mesh;
+  const int       n     = int(other.points.size());
+  for (fem::Point3 point : other.points)
+  {
+    point[1] += 10.;
+    loose.mesh.points.push_back(point);
+  }
+  for (auto cell : other.cells)
+  {
+    for (int &node : cell)
+      node += n;
+    loose.mesh.cells.push_back(cell);
+    loose.mesh.cell_solid.push_back(other.cell_solid.front());
+  }
+  for (auto triangle : other.skin)
+  {
+    for (int &node : triangle)
+      node += n;
+    loose.mesh.skin.push_back(triangle);
+  }
+  for (const int at_once : {1, 2})
+    expect_refusal([&] { reduced_in_parts(loose, 2, {}, at_once); }, "moves freely although its interface is fixed");
+}
+
+TEST_F(FrameInParts, HasTheFrequenciesStaticsAndOutputsOfTheWhole)
 {
   coupling::ReductionOptions options;
   options.n_modes = 20;
@@ -142,7 +270,7 @@ TEST(FrameInParts, HasTheFrequenciesStaticsAndOutputsOfTheWhole)
     }
 }
 
-TEST(FrameInParts, FloatsAsTheWholeDoes)
+TEST_F(FrameInParts, FloatsAsTheWholeDoes)
 {
   CutCase frame = cut_cases().front();
   frame.specification.supports.clear();
@@ -156,7 +284,7 @@ TEST(FrameInParts, FloatsAsTheWholeDoes)
     EXPECT_NEAR(parts.frequencies_hz[j], whole.frequencies_hz[j], 1e-3 * whole.frequencies_hz[j]);
 }
 
-TEST(FrameInParts, RefusesMorePartsThanMakeSense)
+TEST_F(FrameInParts, RefusesMorePartsThanMakeSense)
 {
   const CutCase frame = cut_cases().front();
   expect_refusal([&] { reduced_in_parts(frame, 40); }, "interface DOFs between them; use fewer parts");
