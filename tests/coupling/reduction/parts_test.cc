@@ -1,5 +1,6 @@
 // One mesh cut into parts against the same frame in one piece.
 
+#include "coupling/frame/frame_cache.h"
 #include "coupling/reduction/parts/parted_frame.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
@@ -168,6 +169,17 @@ TEST_F(FrameInParts, TakesPartsThatAreDoneFromTheCache)
   ASSERT_EQ(all.size(), 4u);
   expect_equal(reduced_in_parts(frame, 4, {}, 2), first);
   EXPECT_EQ(files(), all);
+
+  const auto entries = coupling::cache_entries(coupling::CacheCheck::contents);
+  ASSERT_EQ(entries.size(), 4u);
+  for (const coupling::CacheEntry &entry : entries)
+  {
+    EXPECT_EQ(entry.defect, "");
+    EXPECT_TRUE(entry.is_part);
+    EXPECT_EQ(entry.n_modes, 40);
+    EXPECT_EQ(entry.origin.scene, frame.specification.place);
+  }
+  EXPECT_FALSE(coupling::nearest_entry(entries, {})) << "a part is no frame";
 
   // interrupted before the last one, and a damaged one: these two are made again
   std::filesystem::remove(folder / all.begin()->first);
