@@ -25,14 +25,17 @@ SparseCholesky factor_of(const PartOfFrame &part)
 {
   try
   {
-    return {part.sums.C, part.held, fem::available_memory()};
+    SparseCholesky   factor(part.sums.C, part.held, fem::available_memory());
+    constexpr double regular_pivots = 1e-13; // ratio of pivots: below it C22 is singular up to rounding
+    if (factor.pivot_ratio() > regular_pivots)
+      return factor;
   }
   catch (const NotPositiveDefinite &)
   {
-    throw std::invalid_argument("parts: " + part.name +
-                                " moves freely although its interface is fixed; a frame of unconnected bodies "
-                                "without supports cannot be cut. Leave out 'parts'");
   }
+  throw std::invalid_argument("parts: " + part.name +
+                              " moves freely although its interface is fixed; a frame of unconnected bodies without "
+                              "supports cannot be cut. Leave out 'parts'");
 }
 
 /// Rows of the interface, -1 elsewhere.

@@ -65,7 +65,8 @@ Recipe recipe_of(PartOfFrame &part, const PartModes &modes)
   return recipe;
 }
 
-void write_part(const std::string &file, const CondensedPart &part, const FrameOrigin &origin)
+/// The bytes of its file; the largest matrices go as soon as they are in it.
+std::string image_of(CondensedPart part, const FrameOrigin &origin)
 {
   const auto alone = hdf5_alone();
   Hdf5File   image;
@@ -75,14 +76,21 @@ void write_part(const std::string &file, const CondensedPart &part, const FrameO
   image.write("n_full", number(double(part.V.rows())));
   image.write("n_interface", number(double(part.C.rows())));
   image.write("omega0", MatrixXd(part.omega));
-  image.write("C", packed(part.C));
-  image.write("M", packed(part.M));
+  image.write("sigma", number(part.sigma));
   image.write("M_1V", part.M_1V);
   image.write("damping", part.damping);
   image.write("load", part.load);
-  image.write("V", part.V);
-  image.write("sigma", number(part.sigma));
-  write_sealed(file, title_of_parts, image.image());
+  const auto move = [&](const std::string &name, MatrixXd &A)
+  {
+    image.write(name, A);
+    A.resize(0, 0);
+  };
+  move("V", part.V);
+  part.C = packed(part.C);
+  part.M = packed(part.M);
+  move("C", part.C);
+  move("M", part.M);
+  return image.image();
 }
 
 } // namespace
@@ -98,8 +106,8 @@ std::string stored_part(PartOfFrame part, const PartModes &modes, const std::str
     n_modes = std::max(n_modes, modes_below(part, two_pi * modes.hertz) + 1);
   n_modes = std::min(n_modes, int(part.sums.M.rows()) - int(part.held.size()));
 
-  const CondensedPart condensed = condense(std::move(part), n_modes);
-  const auto          write     = [&](const std::string &file) { write_part(file, condensed, origin); };
+  const std::string image = image_of(condense(std::move(part), n_modes), origin);
+  const auto        write = [&](const std::string &file) { write_sealed(file, title_of_parts, image); };
   if (keep_part_in_cache(key, write).empty())
     return cache_file(key);
   std::string file = folder + "/" + key + ".h5";
