@@ -4,6 +4,9 @@
 #include "fem/assembly/cell_parts.h"
 #include "fem/values/frame_matrices.h"
 
+#include <algorithm>
+#include <string>
+
 namespace gestell::coupling
 {
 
@@ -36,7 +39,10 @@ ReducedModel reduce_in_parts(const fem::FrameMatrices &frame, const fem::CellPar
 /// Memory [byte] of a reduction in parts, docs/theory/substructures.md (11).
 struct PartsMemory
 {
-  double part = 0., joined = 0.; ///< of the largest part, and of the joined parts
+  double part   = 0.,
+         joined = 0.; ///< of the process of the largest part, and of the one with the mesh and the joined parts
+
+  double largest_process() const { return std::max(part, joined); }
 };
 PartsMemory memory_of_parts(const fem::CellParts &parts, const fem::FrameMatrices &frame, double compactness);
 
