@@ -297,7 +297,10 @@ ReducedModel reduce_in_parts(const fem::FrameMatrices &frame, const fem::CellPar
 {
   const CutFrame cut(frame, parts, call.alpha, call.beta);
   const int      n = int(frame.M.rows()), n1 = cut.interface().size();
-  if (n1 > n - n1)
+  int            least = n; // DOFs within a part
+  for (int p = 0; p < cut.size(); ++p)
+    least = std::min(least, cut.interface().n_interior(p));
+  if (n1 > n - n1 || least == 0)
     throw std::invalid_argument(call.place + ": parts = " + std::to_string(parts.size()) + " leaves " +
                                 std::to_string(n - n1) + " DOFs within the parts and makes " + std::to_string(n1) +
                                 " interface DOFs between them; use fewer parts, or parts = \"auto\"");

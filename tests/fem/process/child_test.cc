@@ -1,16 +1,14 @@
 // Work in a child process: what comes back, and what becomes of a child that dies, never ends or is not wanted any
 // more.
 
-#include "fem/process/side_by_side.h"
+#include "fem/process/child.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test.h"
 
 #include <sys/wait.h>
 
-#include <chrono>
 #include <csignal>
 #include <new>
-#include <thread>
 #include <unistd.h>
 
 namespace gestell::fem
@@ -18,7 +16,6 @@ namespace gestell::fem
 
 namespace files = std::filesystem;
 
-using gestell::tests::expect_refusal;
 using gestell::tests::refusal;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -90,77 +87,6 @@ TEST(InChild, ValuesComeBackAsTheyWere)
   EXPECT_EQ(there.inner[0].points, (std::vector<std::array<double, 3>>{{1., 2., 3.}, {4., 5., 6.}}));
   EXPECT_EQ(there.inner[0].weights, (std::map<std::array<int, 2>, double>{{{1, 2}, 0.5}}));
   EXPECT_EQ(there.groups, (std::map<std::string, std::vector<int>>{{"feet", {3, 1, 2}}, {"none", {}}}));
-}
-
-TEST(SideBySide, EveryResultComesBack)
-{
-  for (const int at_once : {1, 2, 3, 8})
-  {
-    std::vector<int> results(5, 0);
-    const auto       here = std::this_thread::get_id();
-    side_by_side(
-        5, at_once,
-        [&](const std::string &, double share)
-        {
-          EXPECT_EQ(std::this_thread::get_id(), here);
-          EXPECT_LE(share, 1.);
-        },
-        [&](int i, const ChildProgress &progress)
-        {
-          results[i] = in_child<int>(task, progress,
-                                     [&](const ChildProgress &report)
-                                     {
-                                       report("part", -1.);
-                                       return i * i;
-                                     });
-        });
-    EXPECT_EQ(results, (std::vector<int>{0, 1, 4, 9, 16}));
-  }
-}
-
-TEST(SideBySide, TheFirstFailureEndsTheOthersWithItsWords)
-{
-  const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ(refusal(
-                [&]
-                {
-                  side_by_side(8, 3, {},
-                               [&](int i, const ChildProgress &progress)
-                               {
-                                 in_child<int>(task, progress,
-                                               [&](const ChildProgress &report)
-                                               {
-                                                 report("part", -1.);
-                                                 if (i == 1)
-                                                   throw std::invalid_argument("part 2 of 8 fails");
-                                                 ::sleep(60);
-                                                 return 0;
-                                               });
-                               });
-                }),
-            "part 2 of 8 fails");
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
-}
-
-TEST(SideBySide, ProgressThatThrowsEndsAll)
-{
-  expect_refusal<std::runtime_error>(
-      []
-      {
-        side_by_side(
-            2, 2, [](const std::string &, double) { throw std::runtime_error("interrupted"); },
-            [](int, const ChildProgress &progress)
-            {
-              in_child<int>(task, progress,
-                            [](const ChildProgress &report)
-                            {
-                              report("part", -1.);
-                              ::sleep(60);
-                              return 0;
-                            });
-            });
-      },
-      "interrupted");
 }
 
 TEST(InChild, ALargeResultComesBackWhole)
