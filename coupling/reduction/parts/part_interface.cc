@@ -139,7 +139,7 @@ JoinedSums::JoinedSums(const PartInterface &interface, const std::vector<int> &f
   }
   const std::string what          = "parts: " + std::to_string(interface.size()) + " interface DOFs between the parts",
                     advice        = "Use fewer parts; bulky bodies need less memory in one piece (parts = 1).";
-  constexpr double bytes_of_entry = 40.; // C and M with row numbers, their factor and its work space
+  constexpr double bytes_of_entry = 60.; // C, M, M in the order of the factor, the factor and its work space
   fem::require_available(what, bytes_of_entry * count, advice);
   if (count > 2147483646.)
     throw std::invalid_argument(what + " have more than 2^31 entries in their matrices. " + advice);
