@@ -92,8 +92,9 @@ void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
       ->required(input != CommandInput::scene_or_none);
   command
       .add_option("--jobs", options.jobs,
-                  study ? "processes that make runs side by side (default 1)"
-                        : "threads of the linear algebra that makes a frame (default 1)")
+                  study
+                      ? "processes that make runs side by side (default 1)"
+                      : "threads of the linear algebra that makes a frame, or parts of its mesh at a time (default 1)")
       ->check(above_zero());
   command.add_flag("--quiet", options.quiet, "no progress on standard error");
   command.add_flag_callback(

@@ -67,7 +67,18 @@ void use_fitting_blas_kernels()
   (void)once;
 }
 
+int jobs_requested()
+{
+  const char *wanted = std::getenv("OPENBLAS_NUM_THREADS");
+  return wanted && std::atoi(wanted) > 0 ? std::atoi(wanted) : 1;
+}
+
 void use_one_blas_thread()
+{
+  use_blas_threads(jobs_requested());
+}
+
+void use_blas_threads(int n)
 {
   static const std::string library = blas_library();
   if (library.find("openblas") == std::string::npos)
@@ -76,8 +87,7 @@ void use_one_blas_thread()
                                 "with: update-alternatives --config "
                                 "libblas.so.3-x86_64-linux-gnu");
   use_fitting_blas_kernels();
-  const char *wanted = std::getenv("OPENBLAS_NUM_THREADS"); // --jobs sets it
-  openblas_set_num_threads(wanted && std::atoi(wanted) > 0 ? std::atoi(wanted) : 1);
+  openblas_set_num_threads(n);
 }
 
 } // namespace gestell::coupling

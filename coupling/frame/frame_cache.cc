@@ -2,6 +2,7 @@
 
 #include "coupling/frame/atomic_file.h"
 #include "coupling/frame/cache_folder.h"
+#include "coupling/frame/checksummed_file.h"
 #include "fem/process/cpu_time.h"
 
 #include <sys/stat.h>
@@ -50,6 +51,15 @@ StoredFrame read_entry(const std::string &file, const std::string &key)
   return stored;
 }
 
+/// Reads the whole file of a part.
+void check_part(const std::string &file, const std::string &key)
+{
+  require_own(file);
+  if (const std::string defect = seal_defect(file, title_of_parts); !defect.empty())
+    throw std::runtime_error(defect);
+  require_named_after(read_frame_summary(file).origin, key);
+}
+
 void describe(CacheEntry &entry)
 {
   try
@@ -61,6 +71,7 @@ void describe(CacheEntry &entry)
     entry.n_full      = summary.n_full;
     entry.n_interface = summary.n_interface;
     entry.n_modes     = summary.n_modes;
+    entry.is_part     = summary.is_part;
   }
   catch (const std::runtime_error &failure)
   {
@@ -116,18 +127,42 @@ std::optional<StoredFrame> find_in_cache(const std::string &key, std::string &no
   }
 }
 
+std::string find_part_in_cache(const std::string &key)
+{
+  const std::string file = cache_file(key);
+  std::error_code   error;
+  if (file.empty() || !fs::exists(file, error))
+    return {};
+  try
+  {
+    check_part(file, key);
+    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // as in find_in_cache()
+    return file;
+  }
+  catch (const std::runtime_error &)
+  {
+    return {}; // the part is condensed again and replaces it
+  }
+}
+
 std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin)
 {
   if (const std::string beyond = beyond_the_files(origin.recipe); !beyond.empty())
     return "cache: the reduced frame is not stored: " + beyond + ", so the frame does not depend on its files only";
-  const std::string file = cache_file(content_key(origin.recipe));
+  return keep_part_in_cache(content_key(origin.recipe),
+                            [&](const std::string &file) { write_reduced_frame(file, frame, origin); });
+}
+
+std::string keep_part_in_cache(const std::string &key, const std::function<void(const std::string &file)> &write)
+{
+  const std::string file = cache_file(key);
   if (file.empty())
     return "cache: the reduced frame is not stored: this user has no home folder; name one with GESTELL_CACHE";
   try
   {
     make_own_folder(fs::path(file).parent_path());
     remove_abandoned(fs::path(file).parent_path().string());
-    write_reduced_frame(file, frame, origin);
+    write(file);
     fs::permissions(file, written_by_others, fs::perm_options::remove);
     return {};
   }
@@ -203,7 +238,10 @@ std::string content_defect(const CacheEntry &entry)
     return entry.defect;
   try
   {
-    read_entry(entry.file, entry.key);
+    if (entry.is_part)
+      check_part(entry.file, entry.key);
+    else
+      read_entry(entry.file, entry.key);
     return {};
   }
   catch (const std::runtime_error &failure)
@@ -247,7 +285,7 @@ std::optional<CacheEntry> nearest_entry(const std::vector<CacheEntry> &entries, 
   const CacheEntry *nearest = nullptr;
   std::size_t       fewest  = 0;
   for (const CacheEntry &entry : entries)
-    if (entry.defect.empty())
+    if (entry.defect.empty() && !entry.is_part)
       if (const auto count = differences(entry.origin.recipe, recipe).size(); !nearest || count < fewest)
       {
         nearest = &entry;

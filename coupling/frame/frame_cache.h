@@ -39,6 +39,12 @@ CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<Reduce
 /// from the cache, the stored CPU time of its reduction.
 double cpu_time_without_cache();
 
+/// The file of a condensed part of a frame under this key, see title_of_parts; "": there is none that can be used.
+std::string find_part_in_cache(const std::string &key);
+
+/// Stores such a file by `write`, which gets its path.  @return "" or the reason why it is not stored
+std::string keep_part_in_cache(const std::string &key, const std::function<void(const std::string &file)> &write);
+
 /// Path of the frame of this key in cache_folder(); "": none.
 std::string cache_file(const std::string &key);
 
@@ -48,8 +54,9 @@ struct CacheEntry
   std::string    file, key;
   std::uintmax_t bytes     = 0;
   std::time_t    last_used = 0;
-  std::string    defect; ///< why it cannot be used; "": it can
-  FrameOrigin    origin; // empty if it cannot be used
+  std::string    defect;          ///< why it cannot be used; "": it can
+  FrameOrigin    origin;          // empty if it cannot be used
+  bool           is_part = false; ///< a condensed part of a frame
   int            n_full = 0, n_interface = 0, n_modes = 0;
 };
 
@@ -60,13 +67,14 @@ enum class CacheCheck
   contents ///< all of it, with its checksum, as for use
 };
 
-/// All files of the cache, the most recently used first: frames and unfinished files. Other files are not listed.
+/// All files of the cache, the most recently used first: frames, parts of frames and unfinished files. Other files are
+/// not listed.
 std::vector<CacheEntry> cache_entries(CacheCheck check = CacheCheck::heads);
 
 /// Why this frame of the cache cannot be used, after reading its whole file; "": it can.
 std::string content_defect(const CacheEntry &entry);
 
-/// The usable entry whose recipe differs from this one in the fewest ingredients; none if the cache is empty.
+/// The usable frame whose recipe differs from this one in the fewest ingredients; none if the cache has no frame.
 std::optional<CacheEntry> nearest_entry(const std::vector<CacheEntry> &entries, const Recipe &recipe);
 
 /// Removes an entry.  @return "" or the reason why it is still there.

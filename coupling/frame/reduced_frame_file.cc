@@ -331,7 +331,7 @@ FrameSummary read_summary(const std::string &name)
 {
   const Hdf5File file(name);
   return {read_origin(file), whole_number(file, "n_full"), whole_number(file, "n_interface"),
-          int(file.read_vector("omega0").size())};
+          int(file.read_vector("omega0").size()), false};
 }
 
 StoredFrame read_content(const std::string &name)
@@ -369,7 +369,8 @@ std::string defect_of(const Read &read, const std::string &name)
 
 FrameSummary read_frame_summary(const std::string &name)
 {
-  if (const std::string defect = head_defect(name, title); !defect.empty())
+  const bool is_part = head_defect(name, title_of_parts).empty();
+  if (const std::string defect = is_part ? "" : head_defect(name, title); !defect.empty())
     throw std::runtime_error(defect);
   fem::ReadingLimits limits = limits_of(name);
   // of processor time, for some kilobytes: a thousand times what it takes
@@ -394,7 +395,9 @@ FrameSummary read_frame_summary(const std::string &name)
     throw std::runtime_error("is damaged: " + defect);
   try
   {
-    return read_summary(name);
+    FrameSummary summary = read_summary(name);
+    summary.is_part      = is_part;
+    return summary;
   }
   catch (const std::runtime_error &failure)
   {

@@ -44,11 +44,16 @@ struct StoredFrame
 /// @throws std::runtime_error with the defect of the file.
 StoredFrame read_stored_frame(const std::string &file);
 
+/// Title of the files of condensed parts (coupling/reduction/parts), which are in the cache beside those of frames;
+/// they have the data of a FrameSummary, too.
+constexpr const char *title_of_parts = "Gestell part of a frame 1"; // raise the number with the format
+
 /// Data of a frame that are available without reading the whole file.
 struct FrameSummary
 {
   FrameOrigin origin;
   int         n_full = 0, n_interface = 0, n_modes = 0;
+  bool        is_part = false; ///< a condensed part of a frame, not a reduced frame
 };
 
 /// Reads only header, origin and sizes: a few kilobytes of a file of any size.  Damage elsewhere is not detected;

@@ -50,13 +50,17 @@ private:
   std::vector<int> leader_;
 };
 
-/// Cells that a common coordinate of tied nodes moves are one group, except by the nodes of interfaces and masses:
-/// these may belong to several parts.
+/// Cells that the displacement of a common node moves, by ties of an averaged surface, are one group.  The inner
+/// coordinates of such surfaces and the nodes of interfaces and masses may belong to several parts: they are few, and
+/// move cells far apart.
 std::vector<idx_t> groups_of_cells(const QuadraticMesh &mesh, const AffineConstraints &affine)
 {
   CellGroups       groups(mesh.n_cells());
   std::vector<int> moved(affine.n_coordinates(), -1); // a cell with a tied node that the coordinate moves
   std::vector<int> first(mesh.n_nodes(), -1);         // cell of a tied node
+  int              n_free = 0;                        // coordinates that are displacements: the first ones
+  for (int i = 0; i < affine.n_displacements(); ++i)
+    n_free = std::max(n_free, affine.coordinate(i) + 1);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
     for (int a = 0; a < mesh.n_nodes_of(cell); ++a)
     {
@@ -70,7 +74,7 @@ std::vector<idx_t> groups_of_cells(const QuadraticMesh &mesh, const AffineConstr
         if (affine.coordinate(i) < 0)
           for (const auto &[coordinate, weight] : affine.row(i))
           {
-            if (coordinate >= affine.first_of_nodes())
+            if (coordinate >= n_free)
               continue;
             first[node] = cell;
             if (moved[coordinate] >= 0)

@@ -20,9 +20,9 @@ struct PartMatrices
 
 /**
  * The cells of a frame in parts of about equal size with few common nodes: METIS divides the graph of the cells, two of
- * which are neighbours if they share a face.  Cells with nodes of the same group of an averaged surface stay together;
- * the node of an interface or a mass may belong to several parts.  The sum of the matrices of all parts is the matrix
- * of the frame: constraints are those of the whole frame.
+ * which are neighbours if they share a face.  Cells that an averaged surface ties to a common
+ * displacement stay together; its inner coordinates and the node of an interface or a mass may belong to several parts.
+ * The sum of the matrices of all parts is the matrix of the frame: constraints are those of the whole frame.
  *
  * Refers to its arguments.
  */

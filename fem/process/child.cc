@@ -277,7 +277,8 @@ private:
 
   std::string way_out() const
   {
-    return reads() ? task_.way_out : "choose another mesh.size, or repair the geometry in the CAD program";
+    return reads() || task_.path.empty() ? task_.way_out
+                                         : "choose another mesh.size, or repair the geometry in the CAD program";
   }
 
   std::string out_of_memory() const

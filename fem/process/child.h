@@ -15,7 +15,7 @@ using ChildProgress = std::function<void(const std::string &phase, double share)
 /// Description of the work in a child, for its messages.
 struct ChildTask
 {
-  std::string   path;             ///< of the file that is read
+  std::string   path;             ///< of the file that is read; empty: none, and way_out always holds
   std::string   head;             ///< "<place>: <file>"
   std::string   phase;            ///< the first phase, which reads; the limits end when another phase is reported
   ReadingLimits limits;           ///< of reading

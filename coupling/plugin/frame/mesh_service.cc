@@ -82,30 +82,45 @@ double skin_of(const fem::Mesh &mesh)
   return area;
 }
 
-/// The number of parts with the least memory, 1 included, or the one given.
-fem::CellParts parts_of(const fem::Discretisation &discretisation, const fem::Mesh &mesh,
-                        const fem::FrameSpecification &frame)
+/// A frame in parts, and the memory that its reduction needs.
+struct PartedMesh
 {
-  const fem::MeshError &cells = *discretisation.mesh_error;
+  fem::CellParts parts;
+  PartsMemory    memory;
+};
+
+/// In the number given, or the fewest parts that need about the least memory in any process; none where parts save
+/// little.
+std::optional<PartedMesh> parts_of(const fem::Discretisation &discretisation, const fem::Mesh &mesh,
+                                   const fem::FrameSpecification &frame)
+{
+  const double kappa  = fem::compactness(fem::curved_volume(mesh), skin_of(mesh));
+  const auto   parted = [&](int number)
+  {
+    fem::CellParts    parts  = discretisation.mesh_error->parts(number, frame.place);
+    const PartsMemory memory = memory_of_parts(parts, discretisation.matrices, kappa);
+    return PartedMesh{std::move(parts), memory};
+  };
   if (frame.parts > 0)
-    return cells.parts(frame.parts, frame.place);
-  const double kappa = fem::compactness(fem::curved_volume(mesh), skin_of(mesh));
-  int          best  = 1;
-  double       least = fem::reduction_memory(double(discretisation.matrices.M.rows()), kappa);
+    return parted(frame.parts);
+  constexpr double          worth_cutting = 0.75, about_equal = 0.9; // shares of memory: each part costs time
+  std::optional<PartedMesh> best;
+  double limit = worth_cutting * fem::reduction_memory(double(discretisation.matrices.M.rows()), kappa);
   for (const int number : {2, 3, 4, 6, 8, 12})
   {
     if (number > mesh.n_cells())
       break;
-    const double memory = memory_of_parts(cells.parts(number, frame.place), discretisation.matrices, kappa);
-    if (memory < least)
+    PartedMesh   next   = parted(number);
+    const double memory = next.memory.largest_process();
+    if (memory < limit)
     {
-      least = memory;
-      best  = number;
+      limit = about_equal * memory;
+      best.emplace(std::move(next));
     }
-    else if (memory > 2. * least)
+    else if (memory > 2. * limit)
       break; // the interface outgrows the parts
   }
-  return cells.parts(best, frame.place);
+  return best;
 }
 
 void add_mesh_statement(ReducedModel &reduced, const fem::Discretisation &of, const fem::Mesh &mesh,
@@ -170,14 +185,17 @@ public:
       progress("assembly", -1.);
     if (frame.parts == 1)
       return coupling::assemble(mesh, frame, options, progress, false).reduced;
-    fem::Discretisation  discretisation = fem::discretise_for_parts(mesh, frame);
-    const fem::CellParts parts          = parts_of(discretisation, mesh, frame);
-    if (parts.size() == 1)
+    fem::Discretisation             discretisation = fem::discretise_for_parts(mesh, frame);
+    const std::optional<PartedMesh> parted         = parts_of(discretisation, mesh, frame);
+    if (!parted)
       return coupling::assemble(mesh, frame, options, progress, false).reduced;
     if (const int ranks = ranks_of_factors().size(); ranks > 1)
       std::cerr << "gestell: " << ranks - 1 << " of " << ranks << " ranks are idle while the parts are reduced\n";
-    ReducedModel reduced      = reduce_in_parts(discretisation.matrices, parts, frame.rayleigh_mass,
-                                                frame.rayleigh_stiffness, options, frame.place, progress);
+    use_blas_threads(1); // processes side by side instead: equal results for any number of them
+    const double fitting      = std::max(1., fem::available_memory() / parted->memory.part);
+    ReducedModel reduced      = reduce_in_parts(discretisation.matrices, parted->parts, options,
+                                                {frame.rayleigh_mass, frame.rayleigh_stiffness, frame.place,
+                                                 int(std::min(fitting, double(jobs_requested()))), progress});
     discretisation.matrices.C = fem::SparseMatrix();
     add_mesh_statement(reduced, discretisation, mesh, progress);
     return std::move(reduced.frame);

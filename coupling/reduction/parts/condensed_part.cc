@@ -3,10 +3,14 @@
 #include "coupling/algebra/multifrontal.h"
 #include "coupling/algebra/sparse_cholesky.h"
 #include "coupling/eigensolvers/block_lanczos.h"
+#include "coupling/integration/system/convergence_failure.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 #include "fem/values/available_memory.h"
+#include "fem/values/number_text.h"
+#include "fem/values/two_pi.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -25,14 +29,58 @@ SparseCholesky factor_of(const PartOfFrame &part)
 {
   try
   {
-    return {part.sums.C, part.held, fem::available_memory()};
+    SparseCholesky   factor(part.sums.C, part.held, fem::available_memory());
+    constexpr double regular_pivots = 1e-13; // ratio of pivots: below it C22 is singular up to rounding
+    if (factor.pivot_ratio() > regular_pivots)
+      return factor;
   }
   catch (const NotPositiveDefinite &)
   {
-    throw std::invalid_argument("parts: " + part.name +
-                                " moves freely although its interface is fixed; a frame of unconnected bodies "
-                                "without supports cannot be cut. Leave out 'parts'");
   }
+  throw std::invalid_argument("parts: " + part.name +
+                              " moves freely although its interface is fixed; a frame of unconnected bodies without "
+                              "supports cannot be cut. Leave out 'parts'");
+}
+
+/// Whether the inertia of C - omega^2 M gives no more modes below the gap than are found there.
+bool has_all(const PartOfFrame &part, const SparseCholesky &factor, const ModeSearch::Gap &gap)
+{
+  constexpr double places[]       = {0.5, 0.3, 0.7}; // in the gap, tried in this order
+  constexpr double largest_growth = 1e7;             // of rounding, 1 / sqrt(eps)
+  for (const double place : places)
+  {
+    const double omega = std::isfinite(gap.high) ? gap.low + place * (gap.high - gap.low) : gap.low * (1. + place);
+    if (const Inertia below = factor.inertia(part.sums.C, part.sums.M, omega * omega); below.growth < largest_growth)
+      return below.negative <= gap.below;
+  }
+  throw ConvergenceFailure("parts: the modes of " + part.name + " cannot be counted below " +
+                           rounded(gap.high / two_pi) + " Hz; request another number of modes");
+}
+
+/// The lowest modes, none of them missing.  C is away while they are searched.
+LowestModes modes_of(PartOfFrame &part, const SparseCholesky &factor, int count)
+{
+  const bool            counted = contains(part.sums.C, part.sums.M);
+  constexpr int         largest = 128; // block: of a frequency that is repeated as often
+  BlockLanczos::Options options;
+  for (; options.block <= largest; options.block *= 4)
+  {
+    LowestModes     modes;
+    ModeSearch::Gap gap{};
+    part.sums.C  = fem::SparseMatrix();
+    options.room = 2 * count + 4 * options.block; // little memory: it restarts two or three times
+    {
+      BlockLanczos search(part.sums.M, std::make_shared<InverseByFactor>(factor, part.held), options);
+      search.find(count);
+      gap   = search.gap_above(count);
+      modes = search.modes(count);
+    }
+    part.sums.C = part.stiffness();
+    if (!counted || has_all(part, factor, gap))
+      return modes;
+  }
+  throw ConvergenceFailure("parts: some of the lowest " + std::to_string(count) + " modes of " + part.name +
+                           " are not found; request another number of modes");
 }
 
 /// Rows of the interface, -1 elsewhere.
@@ -190,16 +238,9 @@ CondensedPart condense(PartOfFrame part, int n_modes)
   const Sparse   C_1   = columns_of(C, part.held);
   CondensedPart  result;
   SparseCholesky factor = factor_of(part);
-  {
-    part.sums.C = fem::SparseMatrix();
-    BlockLanczos::Options options;
-    options.room = 2 * n_modes + 4 * options.block; // little memory: it restarts two or three times
-    BlockLanczos search(M, std::make_shared<InverseByFactor>(factor, part.held), options);
-    search.find(n_modes);
-    LowestModes modes = search.modes(n_modes);
-    result.V          = std::move(modes.V);
-    result.omega      = std::move(modes.omega);
-  }
+  LowestModes    modes  = modes_of(part, factor, n_modes);
+  result.V              = std::move(modes.V);
+  result.omega          = std::move(modes.omega);
   const VectorXd square = result.omega.cwiseAbs2();
   result.M_1V           = columns_of(M, part.held).transpose() * result.V;
   result.M_1V -= (C_1.transpose() * result.V) * square.cwiseInverse().asDiagonal();
@@ -220,7 +261,6 @@ CondensedPart condense(PartOfFrame part, int n_modes)
     tau                           = second_order / std::max(largest_against_stiffness(part, factor), 1e-300);
   }
   factor.release();
-  part.sums.C = part.stiffness();
 
   // Rounding of S counts omega_mesh^2 / sigma times in M*: 1e-7 with this share of the square of the highest mode.
   constexpr double share        = 1e-4;

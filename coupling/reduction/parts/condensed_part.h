@@ -49,6 +49,7 @@ struct CondensedPart
 /// Number of fixed-interface modes below a frequency [rad/s].
 int modes_below(const PartOfFrame &part, double omega);
 
+/// The modes are counted by the inertia of C - omega^2 M where C has an entry wherever M has one.
 /// @throws std::invalid_argument if the part moves freely with its interface fixed; ConvergenceFailure.
 CondensedPart condense(PartOfFrame part, int n_modes);
 

@@ -63,11 +63,12 @@ std::vector<int> PartInterface::held(const std::vector<int> &coordinates) const
   return result;
 }
 
-std::vector<int> PartInterface::places(const PartOfFrame &part, int first_mode, int n_modes) const
+std::vector<int> PartInterface::places(const std::vector<int> &coordinates, int first_mode, int n_modes) const
 {
   std::vector<int> result;
-  for (const int k : part.held)
-    result.push_back(place_[part.sums.coordinates[k]]);
+  for (const int i : coordinates)
+    if (place_[i] >= 0)
+      result.push_back(place_[i]);
   for (int j = 0; j < n_modes; ++j)
     result.push_back(first_mode + j);
   return result;
@@ -90,6 +91,19 @@ Sparse PartInterface::share(const Sparse &A, int part, const std::vector<int> &c
   Sparse result(Index(coordinates.size()), Index(coordinates.size()));
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
+}
+
+double common_pairs(const PartInterface &interface)
+{
+  std::map<std::uint64_t, double> counts;
+  for (int i = 0; i < interface.size(); ++i)
+    ++counts[interface.parts_at(i)];
+  double pairs = 0.;
+  for (const auto &[parts, count] : counts)
+    for (const auto &[others, count_of_others] : counts)
+      if (parts & others)
+        pairs += count * count_of_others;
+  return pairs;
 }
 
 JoinedSums::JoinedSums(const PartInterface &interface, const std::vector<int> &first_modes, int n)
@@ -125,7 +139,7 @@ JoinedSums::JoinedSums(const PartInterface &interface, const std::vector<int> &f
   }
   const std::string what          = "parts: " + std::to_string(interface.size()) + " interface DOFs between the parts",
                     advice        = "Use fewer parts; bulky bodies need less memory in one piece (parts = 1).";
-  constexpr double bytes_of_entry = 40.; // C and M with row numbers, their factor and its work space
+  constexpr double bytes_of_entry = 60.; // C, M, M in the order of the factor, the factor and its work space
   fem::require_available(what, bytes_of_entry * count, advice);
   if (count > 2147483646.)
     throw std::invalid_argument(what + " have more than 2^31 entries in their matrices. " + advice);

@@ -31,7 +31,7 @@ public:
   /// Those of a part's coordinates that are the interface, as its own numbers, ascending.
   std::vector<int> held(const std::vector<int> &coordinates) const;
   /// Coordinates of the joined parts: of a part's interface, then of its modes.
-  std::vector<int> places(const PartOfFrame &part, int first_mode, int n_modes) const;
+  std::vector<int> places(const std::vector<int> &coordinates, int first_mode, int n_modes) const;
   /// The entries of A for which `part` is the first part with both coordinates, in its coordinates.
   Eigen::SparseMatrix<double> share(const Eigen::SparseMatrix<double> &A, int part,
                                     const std::vector<int> &coordinates) const;
@@ -40,6 +40,9 @@ private:
   std::vector<std::uint64_t> parts_; // of every coordinate of the frame
   std::vector<int>           place_, coordinates_, n_held_, n_interior_;
 };
+
+/// Pairs of interface coordinates that have a part in common: entries of the matrices of the joined parts.
+double common_pairs(const PartInterface &interface);
 
 /// C, M and B of the joined parts, dense between the interface coordinates of a part, its modes, and both.
 class JoinedSums

@@ -2,18 +2,38 @@
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/reduction/parts/condensed_part.h"
+#include "coupling/reduction/parts/part_file.h"
 #include "coupling/reduction/parts/part_interface.h"
 #include "coupling/reduction/projection.h"
 #include "fem/mesh/memory_estimate.h"
+#include "fem/process/side_by_side.h"
 #include "fem/values/number_text.h"
+#include "fem/values/temporary_directory.h"
 #include "fem/values/two_pi.h"
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <stdexcept>
 
 namespace gestell::coupling
 {
+
+template <typename Archive>
+void exchange(Archive &archive, RecoveredPart &value)
+{
+  auto &[T, beyond, left_out] = value;
+  const auto one              = [&](auto &A)
+  {
+    std::array<Eigen::Index, 2> size{{A.rows(), A.cols()}};
+    archive(size);
+    A.resize(size[0], size[1]);
+    archive.run(A.data(), std::size_t(A.size()));
+  };
+  one(T);
+  one(beyond);
+  one(left_out);
+}
 
 namespace
 {
@@ -38,6 +58,7 @@ public:
   }
 
   int                  size() const { return parts_.size(); }
+  std::vector<int>     coordinates(int p) const { return parts_.coordinates(p); }
   const PartInterface &interface() const { return interface_; }
   std::string          name(int p) const { return "part " + std::to_string(p + 1) + " of " + std::to_string(size()); }
 
@@ -70,19 +91,38 @@ private:
 };
 
 /// Modes to retain of every part: at least as many as of the frame, and those below twice the frequency of interest.
-std::vector<int> numbers_of_modes(const CutFrame &cut, const ReductionOptions &options)
+PartModes modes_of_parts(const ReductionOptions &options)
 {
   constexpr double reach       = 2.;
   constexpr int    least_modes = 40; // the fixed-interface modes of a part lie above as many of the frame
-  std::vector<int> numbers;
-  for (int p = 0; p < cut.size(); ++p)
-  {
-    int n = std::max(least_modes, options.n_modes);
-    if (options.frequency > 0.)
-      n = std::max(n, modes_below(cut.part(p), reach * two_pi * options.frequency) + 1);
-    numbers.push_back(std::min(n, cut.interface().n_interior(p)));
-  }
-  return numbers;
+  return {std::max(least_modes, options.n_modes), reach * options.frequency};
+}
+
+/// Calls work(p) for every part in a process of its own, whose memory goes back to the system.
+template <typename Value, typename Work, typename Take>
+void for_each_part(const CutFrame &cut, const PartsCall &call, const std::string &phase, const Work &work,
+                   const Take &take)
+{
+  std::mutex mutex;
+  fem::side_by_side(cut.size(), call.at_once, call.progress,
+                    [&](int p, const Progress &progress)
+                    {
+                      fem::ChildTask task;
+                      task.head                               = call.place;
+                      task.phase                              = "start";
+                      task.alone                              = !fem::in_one_process();
+                      task.library                            = "the reduction";
+                      task.way_out                            = "use more parts, or a larger mesh.size";
+                      Value                             value = fem::in_child<Value>(task, progress,
+                                                         [&](const Progress &report)
+                                                         {
+                                                           if (report)
+                                                             report(phase + cut.name(p), -1.);
+                                                           return work(p);
+                                                         });
+                      const std::lock_guard<std::mutex> alone(mutex);
+                      take(p, std::move(value));
+                    });
 }
 
 /// What is known of the frame at the interface, in the coordinates of the joined parts.
@@ -115,40 +155,47 @@ fem::FrameMatrices on_interface(const fem::FrameMatrices &frame, const PartInter
 /// The parts in one set of coordinates, and what is needed to recover their fields.
 struct Joined
 {
-  fem::FrameMatrices         matrices;
-  std::vector<CondensedPart> parts; ///< without C and M
-  std::vector<int>           modes; ///< first coordinate of the modes of each part
+  std::vector<std::string>      files;
+  std::vector<std::vector<int>> places;         ///< of the interface and the modes of each part
+  std::vector<double>           highest, sigma; ///< of each part: frequency of its modes [rad/s], CondensedPart::sigma
 };
 
-Joined join(const CutFrame &cut, const fem::FrameMatrices &frame, double alpha, double beta,
-            const ReductionOptions &options, const Progress &progress)
+Joined condense_all(const CutFrame &cut, const PartsCall &call, const ReductionOptions &options,
+                    const std::string &folder)
 {
-  const PartInterface   &interface = cut.interface();
-  const std::vector<int> numbers   = numbers_of_modes(cut, options);
-  Joined                 joined;
-  int                    n = interface.size();
-  for (const int m : numbers)
-  {
-    joined.modes.push_back(n);
-    n += m;
-  }
-  joined.matrices = on_interface(frame, interface, n);
-  JoinedSums sums(interface, joined.modes, n);
+  Joined joined;
+  joined.files.resize(cut.size());
+  for_each_part<std::string>(
+      cut, call, "", [&](int p) { return stored_part(cut.part(p), modes_of_parts(options), call.place, folder); },
+      [&](int p, std::string file) { joined.files[p] = std::move(file); });
+  return joined;
+}
+
+fem::FrameMatrices join(const CutFrame &cut, const fem::FrameMatrices &frame, const PartsCall &call, Joined &joined)
+{
+  const PartInterface &interface = cut.interface();
+  std::vector<int>     first_modes;
+  int                  n = interface.size();
   for (int p = 0; p < cut.size(); ++p)
   {
-    if (progress)
-      progress(cut.name(p), double(p) / cut.size());
-    PartOfFrame   part      = cut.part(p);
-    const auto    places    = interface.places(part, joined.modes[p], numbers[p]);
-    CondensedPart condensed = condense(std::move(part), numbers[p]);
-    sums.add(condensed, places);
-    joined.matrices.acceleration_load(places, Eigen::all) += condensed.load;
-    condensed.C.resize(0, 0);
-    condensed.M.resize(0, 0);
-    joined.parts.push_back(std::move(condensed));
+    const CondensedPart part = read_part(joined.files[p], PartContent::frequencies);
+    const int           m    = int(part.omega.size());
+    joined.places.push_back(interface.places(cut.coordinates(p), n, m));
+    joined.highest.push_back(part.omega[m - 1]);
+    joined.sigma.push_back(part.sigma);
+    first_modes.push_back(n);
+    n += m;
   }
-  sums.give(joined.matrices, alpha, beta);
-  return joined;
+  fem::FrameMatrices matrices = on_interface(frame, interface, n);
+  JoinedSums         sums(interface, first_modes, n);
+  for (int p = 0; p < cut.size(); ++p)
+  {
+    const CondensedPart part = read_part(joined.files[p], PartContent::sums);
+    sums.add(part, joined.places[p]);
+    matrices.acceleration_load(joined.places[p], Eigen::all) += part.load;
+  }
+  sums.give(matrices, call.alpha, call.beta);
+  return matrices;
 }
 
 /// Fields of the whole frame from those of the joined parts.
@@ -158,25 +205,28 @@ struct Recovered
   std::vector<VectorXd> left_out;  // [p] q_1^T F q_1 of each part and mode
 };
 
-Recovered recover_all(const CutFrame &cut, const Joined &joined, const ReducedModel &reduced, const MatrixXd &modes,
-                      Index n, const Progress &progress)
+Recovered recover_all(const CutFrame &cut, const PartsCall &call, const Joined &joined, const ReducedModel &reduced,
+                      const MatrixXd &modes, Index n)
 {
   const MatrixXd &T = reduced.basis.T, &beyond = reduced.beyond;
-  Recovered       all{MatrixXd::Zero(n, T.cols()), MatrixXd::Zero(n, beyond.cols()), {}};
-  for (int p = 0; p < cut.size(); ++p)
-  {
-    if (progress)
-      progress("fields of " + cut.name(p), double(p) / cut.size());
-    PartOfFrame            part        = cut.part(p);
-    const std::vector<int> coordinates = part.sums.coordinates;
-    const auto             places = cut.interface().places(part, joined.modes[p], int(joined.parts[p].omega.size()));
-    RecoveredPart          of =
-        recover(std::move(part), joined.parts[p], T(places, Eigen::all), beyond(places, Eigen::all), modes);
-    all.T(coordinates, Eigen::all) = of.T;
-    if (beyond.cols() > 0)
-      all.beyond(coordinates, Eigen::all) = of.beyond;
-    all.left_out.push_back(std::move(of.left_out));
-  }
+  Recovered       all{MatrixXd::Zero(n, T.cols()), MatrixXd::Zero(n, beyond.cols()),
+                std::vector<VectorXd>(std::size_t(cut.size()))};
+  for_each_part<RecoveredPart>(
+      cut, call, "fields of ",
+      [&](int p)
+      {
+        const std::vector<int> &places = joined.places[p];
+        return recover(cut.part(p), read_part(joined.files[p], PartContent::modes), T(places, Eigen::all),
+                       beyond(places, Eigen::all), modes);
+      },
+      [&](int p, RecoveredPart of)
+      {
+        const std::vector<int> coordinates = cut.coordinates(p);
+        all.T(coordinates, Eigen::all)     = of.T;
+        if (beyond.cols() > 0)
+          all.beyond(coordinates, Eigen::all) = of.beyond;
+        all.left_out[p] = std::move(of.left_out);
+      });
   return all;
 }
 
@@ -192,24 +242,25 @@ DenseModes modes_of_interest(const ReducedFrame &reduced)
 std::string statement_of(const DenseModes &modes, const Joined &joined, const Recovered &recovered,
                          const PartInterface &interface)
 {
-  double worst = 0., known = 0.;
+  double            worst = 0., known = 0.;
+  const std::size_t n_parts = joined.files.size();
   for (Index j = 0; j < modes.omega.size(); ++j)
   {
     double error = 0.;
-    for (std::size_t p = 0; p < joined.parts.size(); ++p)
+    for (std::size_t p = 0; p < n_parts; ++p)
     {
-      const CondensedPart &part  = joined.parts[p];
-      const double         ratio = modes.omega[j] / part.omega.tail<1>()[0];
-      const double         F     = recovered.left_out[p][j];
-      error += ratio < 1. ? 0.5 * (std::pow(modes.omega[j], 2) + part.sigma) * std::max(F, 0.) / (1. - ratio * ratio)
-                          : INFINITY;
+      const double ratio = modes.omega[j] / joined.highest[p];
+      const double F     = recovered.left_out[p][j];
+      error += ratio < 1.
+                   ? 0.5 * (std::pow(modes.omega[j], 2) + joined.sigma[p]) * std::max(F, 0.) / (1. - ratio * ratio)
+                   : INFINITY;
     }
     worst = std::max(worst, error);
     known = modes.omega[j] / two_pi;
   }
-  std::string text =
-      "parts: " + std::to_string(joined.parts.size()) + " parts with " + std::to_string(interface.size()) +
-      " interface coordinates; their reduction makes frequencies up to " + rounded(known) + " Hz too high by ";
+  std::string text = "parts: " + std::to_string(n_parts) + " parts with " + std::to_string(interface.size()) +
+                     " interface coordinates; their reduction makes frequencies up to " + rounded(known) +
+                     " Hz too high by ";
   return text + (std::isfinite(worst) ? percent(worst, 2) + " at most (first-order bound)"
                                       : "an unknown amount: use [reduction] frequency to retain more modes of parts");
 }
@@ -241,37 +292,47 @@ ReducedModel completed(ReducedModel reduced, const fem::FrameMatrices &frame, Re
 
 } // namespace
 
-ReducedModel reduce_in_parts(const fem::FrameMatrices &frame, const fem::CellParts &parts, double alpha, double beta,
-                             const ReductionOptions &options, const std::string &place, const Progress &progress)
+ReducedModel reduce_in_parts(const fem::FrameMatrices &frame, const fem::CellParts &parts,
+                             const ReductionOptions &options, const PartsCall &call)
 {
-  const CutFrame cut(frame, parts, alpha, beta);
+  const CutFrame cut(frame, parts, call.alpha, call.beta);
   const int      n = int(frame.M.rows()), n1 = cut.interface().size();
-  if (n1 > n - n1)
-    throw std::invalid_argument(place + ": parts = " + std::to_string(parts.size()) + " leaves " +
+  int            least = n; // DOFs within a part
+  for (int p = 0; p < cut.size(); ++p)
+    least = std::min(least, cut.interface().n_interior(p));
+  if (n1 > n - n1 || least == 0)
+    throw std::invalid_argument(call.place + ": parts = " + std::to_string(parts.size()) + " leaves " +
                                 std::to_string(n - n1) + " DOFs within the parts and makes " + std::to_string(n1) +
                                 " interface DOFs between them; use fewer parts, or parts = \"auto\"");
-  const Joined     joined    = join(cut, frame, alpha, beta, options, progress);
-  ReducedModel     reduced   = reduce_with_basis(joined.matrices, options, progress);
-  const DenseModes modes     = modes_of_interest(reduced.frame);
-  Recovered        recovered = recover_all(cut, joined, reduced, modes.V, n, progress);
+  const fem::TemporaryDirectory folder; // unless the cache takes the parts
+  Joined                        joined    = condense_all(cut, call, options, folder.path().string());
+  ReducedModel                  reduced   = reduce_with_basis(join(cut, frame, call, joined), options, call.progress);
+  const DenseModes              modes     = modes_of_interest(reduced.frame);
+  Recovered                     recovered = recover_all(cut, call, joined, reduced, modes.V, n);
   reduced.frame.statements.push_back(statement_of(modes, joined, recovered, cut.interface()));
   return completed(std::move(reduced), frame, std::move(recovered));
 }
 
-double memory_of_parts(const fem::CellParts &parts, const fem::FrameMatrices &frame, double compactness)
+PartsMemory memory_of_parts(const fem::CellParts &parts, const fem::FrameMatrices &frame, double compactness)
 {
   const PartInterface interface(parts, frame.interface_coordinates());
-  double              most = 0.;
+  const double        libraries = fem::reduction_memory(0., compactness);
+  // Measured for the press frame: 26 MB for 100 000 DOFs; and 60 columns of the basis.
+  constexpr double bytes_per_coordinate = 260. + 60. * sizeof(double);
+  // Of a part: S, M*, a contribution and its sum in elimination.  Of the joined parts: C and M, both triangles with row
+  // numbers, M once more in the order of the factor, the factor and its work space; measured.
+  constexpr double bytes_per_pair = 4. * sizeof(double), bytes_per_joined_pair = 60.;
+  constexpr double of_files = 0.1 * 1024. * 1024. * 1024.; // libraries that children do not touch
+  const double     mesh     = bytes_per_coordinate * double(frame.M.rows());
+  PartsMemory      memory;
   for (int p = 0; p < parts.size(); ++p)
   {
     const double n1 = interface.n_held(p);
-    // S and M*, a contribution and its sum in elimination
-    constexpr double bytes_per_pair = 4. * sizeof(double);
-    most = std::max(most, fem::reduction_memory(n1 + interface.n_interior(p), compactness) + bytes_per_pair * n1 * n1);
+    memory.part     = std::max(memory.part, mesh - of_files + bytes_per_pair * n1 * n1 +
+                                                fem::reduction_memory(n1 + interface.n_interior(p), compactness));
   }
-  // C and M, both triangles with row numbers; half as much for their factor and its work space each
-  constexpr double bytes_per_pair = 40.;
-  return std::max(most, bytes_per_pair * interface.size() * double(interface.size()));
+  memory.joined = libraries + mesh + bytes_per_joined_pair * common_pairs(interface);
+  return memory;
 }
 
 } // namespace gestell::coupling

@@ -2,6 +2,7 @@
 
 #include "apps/scene/build/build_machine.h"
 #include "coupling/modes/modes.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/test.h"
 
@@ -61,6 +62,16 @@ TEST(MatrixFrame, WithInnerRowsHasTheFrequenciesOfTheChain)
     EXPECT_NEAR(2. * M_PI * modes[j - 1].frequency_hz, omega(j), 1e-10 * omega(3));
   EXPECT_EQ(machine.coordinate_name(0), "frame.top.uz");
   EXPECT_EQ(machine.coordinate_name(1).rfind("frame coordinate", 0), 0u);
+}
+
+TEST(MatrixFrame, HasNoMeshToCut)
+{
+  std::string       text  = chain;
+  const std::string frame = "[frame]\n";
+  ASSERT_NE(text.find(frame), std::string::npos);
+  text.insert(text.find(frame) + frame.size(), "parts = 2\n");
+  tests::expect_refusal([&] { test::scene_of(text); },
+                        "parts: cuts the mesh of a frame from 'cad'; a frame that is given by matrices has no mesh");
 }
 
 TEST(MatrixFrame, WithInnerRowsFallsAsTheoryAndAsTheSparseFrame)

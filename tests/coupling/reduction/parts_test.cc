@@ -1,13 +1,18 @@
 // One mesh cut into parts against the same frame in one piece.
 
+#include "coupling/frame/frame_cache.h"
 #include "coupling/reduction/parts/parted_frame.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
-#include "tests/support/test.h"
+#include "tests/support/frame_folder.h"
+#include "tests/support/refusal.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+
+#include <cstdlib>
+#include <set>
 
 namespace gestell::test
 {
@@ -65,12 +70,13 @@ std::vector<CutCase> cut_cases()
           loaded_beam("of bricks", brick_mesh(n, size), average, clamp), std::move(damped)};
 }
 
-ReducedFrame reduced_in_parts(const CutCase &frame, int n_parts, const coupling::ReductionOptions &options = {})
+ReducedFrame reduced_in_parts(const CutCase &frame, int n_parts, const coupling::ReductionOptions &options = {},
+                              int at_once = 1)
 {
   const fem::Discretisation of = fem::discretise_for_parts(frame.mesh, frame.specification);
-  return reduce_in_parts(of.matrices, of.mesh_error->parts(n_parts, frame.specification.place),
-                         frame.specification.rayleigh_mass, frame.specification.rayleigh_stiffness, options,
-                         frame.specification.place, {})
+  return reduce_in_parts(of.matrices, of.mesh_error->parts(n_parts, frame.specification.place), options,
+                         {frame.specification.rayleigh_mass, frame.specification.rayleigh_stiffness,
+                          frame.specification.place, at_once})
       .frame;
 }
 
@@ -101,7 +107,149 @@ TEST(CellParts, AddUpToTheWhole)
   }
 }
 
-TEST(FrameInParts, HasTheFrequenciesStaticsAndOutputsOfTheWhole)
+/// Parts are kept in a cache of their own.
+class FrameInParts : public FrameFolder
+{
+protected:
+  std::set<std::string> files() const
+  {
+    std::set<std::string> found;
+    for (const auto &entry : std::filesystem::directory_iterator(folder))
+      if (entry.is_regular_file())
+        found.insert(entry.path().filename().string());
+    return found;
+  }
+  void empty_cache() const
+  {
+    for (const std::string &name : files())
+      std::filesystem::remove(folder / name);
+  }
+  /// Remembers the files by a second name.
+  void mark_files() const
+  {
+    std::filesystem::create_directories(folder / "marked");
+    for (const std::string &name : files())
+      std::filesystem::create_hard_link(folder / name, folder / "marked" / name);
+  }
+  /// Number of files that have not been written since.
+  int n_marked() const
+  {
+    int count = 0;
+    for (const std::string &name : files())
+      count += std::filesystem::exists(folder / "marked" / name) &&
+               std::filesystem::equivalent(folder / name, folder / "marked" / name);
+    return count;
+  }
+};
+
+void expect_equal(const ReducedFrame &a, const ReducedFrame &b)
+{
+  EXPECT_EQ(a.M, b.M);
+  EXPECT_EQ(a.B, b.B);
+  EXPECT_EQ(a.C, b.C);
+  EXPECT_EQ(a.frequencies_hz, b.frequencies_hz);
+  EXPECT_EQ(a.translations_load, b.translations_load);
+  EXPECT_EQ(a.displacement, b.displacement);
+  EXPECT_EQ(a.stress.mean, b.stress.mean);
+  EXPECT_EQ(a.statements, b.statements);
+}
+
+TEST_F(FrameInParts, IsTheSameSideBySideAndInOneProcess)
+{
+  for (const CutCase &frame : {cut_cases().front(), cut_cases().back()})
+  {
+    SCOPED_TRACE(frame.name);
+    const ReducedFrame in_turn = reduced_in_parts(frame, 5);
+    EXPECT_EQ(files().size(), 5u);
+    empty_cache();
+    expect_equal(reduced_in_parts(frame, 5, {}, 3), in_turn);
+    empty_cache();
+    setenv("GESTELL_ONE_PROCESS", "1", 1);
+    expect_equal(reduced_in_parts(frame, 5), in_turn);
+    unsetenv("GESTELL_ONE_PROCESS");
+    empty_cache();
+  }
+}
+
+TEST_F(FrameInParts, TakesPartsThatAreDoneFromTheCache)
+{
+  const CutCase      frame = cut_cases().front();
+  const ReducedFrame first = reduced_in_parts(frame, 4);
+  const auto         all   = files();
+  ASSERT_EQ(all.size(), 4u);
+  mark_files();
+  expect_equal(reduced_in_parts(frame, 4, {}, 2), first);
+  EXPECT_EQ(files(), all);
+  EXPECT_EQ(n_marked(), 4);
+
+  const auto entries = coupling::cache_entries(coupling::CacheCheck::contents);
+  ASSERT_EQ(entries.size(), 4u);
+  for (const coupling::CacheEntry &entry : entries)
+  {
+    EXPECT_EQ(entry.defect, "");
+    EXPECT_TRUE(entry.is_part);
+    EXPECT_EQ(entry.n_modes, 40);
+    EXPECT_EQ(entry.origin.scene, frame.specification.place);
+  }
+  EXPECT_FALSE(coupling::nearest_entry(entries, {})) << "a part is no frame";
+
+  // interrupted before the last one, and a damaged one: these two are made again
+  std::filesystem::remove(folder / *all.begin());
+  std::filesystem::resize_file(folder / *all.rbegin(), 1000);
+  expect_equal(reduced_in_parts(frame, 4), first);
+  EXPECT_EQ(files(), all);
+  EXPECT_EQ(n_marked(), 2);
+
+  coupling::ReductionOptions other; // of the joined parts only
+  other.method = "guyan";
+  reduced_in_parts(frame, 4, other);
+  EXPECT_EQ(files(), all);
+  CutCase changed                      = frame; // at one end
+  changed.specification.masses[0].mass = 41.;
+  reduced_in_parts(changed, 4);
+  EXPECT_EQ(files().size(), 5u);
+}
+
+TEST_F(FrameInParts, ReducesWithoutACacheThatCanBeWritten)
+{
+  const CutCase      frame = cut_cases().front();
+  const ReducedFrame kept  = reduced_in_parts(frame, 3);
+  setenv("GESTELL_CACHE", "/proc/none", 1);
+  expect_equal(reduced_in_parts(frame, 3), kept);
+}
+
+TEST_F(FrameInParts, EndsWithTheMessageOfAPartThatFails)
+{
+  CutCase loose = cut_cases().front();
+  loose.specification.supports.clear();
+  loose.specification.masses.clear();
+  loose.specification.cuts.clear();
+  // another body beside it, which nothing holds
+  const fem::Mesh other = loose.mesh;
+  const int       n     = int(other.points.size());
+  for (fem::Point3 point : other.points)
+  {
+    point[1] += 10.;
+    loose.mesh.points.push_back(point);
+  }
+  for (auto cell : other.cells)
+  {
+    for (int &node : cell)
+      node += n;
+    loose.mesh.cells.push_back(cell);
+    loose.mesh.cell_solid.push_back(other.cell_solid.front());
+  }
+  for (auto triangle : other.skin)
+  {
+    for (int &node : triangle)
+      node += n;
+    loose.mesh.skin.push_back(triangle);
+  }
+  for (const int at_once : {1, 2})
+    expect_refusal([&] { reduced_in_parts(loose, 2, {}, at_once); }, "moves freely although its interface is fixed");
+}
+
+TEST_F(FrameInParts, HasTheFrequenciesStaticsAndOutputsOfTheWhole)
 {
   coupling::ReductionOptions options;
   options.n_modes = 20;
@@ -142,7 +290,7 @@ TEST(FrameInParts, HasTheFrequenciesStaticsAndOutputsOfTheWhole)
     }
 }
 
-TEST(FrameInParts, FloatsAsTheWholeDoes)
+TEST_F(FrameInParts, FloatsAsTheWholeDoes)
 {
   CutCase frame = cut_cases().front();
   frame.specification.supports.clear();
@@ -156,7 +304,7 @@ TEST(FrameInParts, FloatsAsTheWholeDoes)
     EXPECT_NEAR(parts.frequencies_hz[j], whole.frequencies_hz[j], 1e-3 * whole.frequencies_hz[j]);
 }
 
-TEST(FrameInParts, RefusesMorePartsThanMakeSense)
+TEST_F(FrameInParts, RefusesMorePartsThanMakeSense)
 {
   const CutCase frame = cut_cases().front();
   expect_refusal([&] { reduced_in_parts(frame, 40); }, "interface DOFs between them; use fewer parts");

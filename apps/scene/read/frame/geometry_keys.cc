@@ -109,10 +109,11 @@ const std::vector<Key> &frame_keys()
                  "by ratios of the modes, `{ ratio = 0.02 }`, or after Rayleigh by the ratios at two frequencies, `{ "
                  "rayleigh = [{ frequency = \"20 Hz\", ratio = 0.01 }, { frequency = \"500 Hz\", ratio = 0.02 }] }`")
           .by_default("none"),
-      key::plain("parts", Key::Form::whole,
-                 "number of parts that the mesh is cut into, which are reduced one after the other and joined: less "
-                 "memory for large frames of plates and beams, [see there](parts.md#one-mesh-in-parts); `\"auto\"`: "
-                 "as many as need the least memory by estimate; at most 64")
+      key::plain(
+          "parts", Key::Form::whole,
+          "number of parts that the mesh is cut into, which are reduced in processes of their own and joined: less "
+          "memory for large frames of plates and beams, [see there](parts.md#one-mesh-in-parts); `\"auto\"`: "
+          "the fewest that need about the least memory by estimate; at most 64")
           .also({Key::Form::text})
           .by_default(1.),
       key::plain("reduced", Key::Form::file,

@@ -48,6 +48,11 @@ FrameRequest read_frame(const SceneTable &scene)
         "(a reduced frame) and 'part' (tables of several parts)" +
         (given.empty() ? "; leave [frame] out for a machine without one" : given + "; keep one of them"));
   }
+  if (!cad && frame->has("parts"))
+    throw frame->error(
+        "parts", "cuts the mesh of a frame from 'cad'; a frame " +
+                     std::string(parts ? "of parts has one mesh for each" : "that is given by matrices has no mesh") +
+                     "; leave it out");
   if (cad)
   {
     request.source   = FrameSource::geometry;
