@@ -148,6 +148,14 @@ DistributedFactor::DistributedFactor(const fem::Ranks &ranks, const FactorMatric
   };
   take(on_first.given_C, given_C_);
   take(on_first.given_M, given_M_);
+  put_away(given_M_, stored_M_);
+}
+
+/// Rows for which several ranks have no use until they are loaded.
+void DistributedFactor::put_away(PetscOwned<Mat> &rows, StoredRows &stored) const
+{
+  if (rows && ranks_.size() > 1 && (stored = rows_.stored(rows.get())))
+    rows.reset();
 }
 
 namespace
@@ -369,10 +377,7 @@ std::unique_ptr<ModeSearch> DistributedFactor::search(const std::string         
                                                       const LowestModes           *known_on_first)
 {
   const bool with_C = eigensolver != "block-lanczos" || has_option("-eps_type");
-  if (given_M_ && ranks_.size() > 1) // the space of the search takes their place
-    for (auto [rows, stored] : {std::pair(&given_C_, &stored_C_), std::pair(&given_M_, &stored_M_)})
-      if ((*stored = rows_.stored(rows->get())))
-        rows->reset();
+  put_away(given_C_, stored_C_); // the space of the search takes its place
   auto             M = mass(), C = with_C ? stiffness() : PetscOwned<Mat>();
   std::vector<Mat> matrices{M.get()};
   if (C)

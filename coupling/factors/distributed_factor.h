@@ -52,6 +52,7 @@ private:
   struct Solver;
   PetscOwned<Mat> stiffness() const;
   PetscOwned<Mat> mass() const;
+  void            put_away(PetscOwned<Mat> &rows, StoredRows &stored) const;
   PetscOwned<Mat> given(Given which) const { return which == Given::C ? stiffness() : mass(); }
   double          regularity_of(const Eigen::VectorXd &diagonal) const;
 
@@ -59,8 +60,8 @@ private:
   FactorMatrices          on_first_;
   double                  available_;
   RowDistribution         rows_;
-  PetscOwned<Mat>         given_C_, given_M_;   ///< until the first search on several ranks
-  StoredRows              stored_C_, stored_M_; ///< after it; other matrices are distributed for each use
+  PetscOwned<Mat>         given_C_, given_M_;   ///< C on several ranks until the first search
+  StoredRows              stored_C_, stored_M_; ///< on several ranks; other matrices are distributed for each use
   std::unique_ptr<Solver> solver_;
   double                  regularity_ = 1.;
 };

@@ -112,7 +112,7 @@ RowDistribution::RowDistribution(const fem::Ranks &ranks, const SparseMatrix *A,
   std::ptrdiff_t free = std::ptrdiff_t(order_.size());
   ranks_.broadcast(free);
   ranks_.broadcast(n_);
-  constexpr double share_of_first = 0.6; // of the rows of another rank: it stores the mesh and all shapes, too
+  constexpr double share_of_first = 0.5; // of the rows of another rank: it stores the mesh and all shapes, too
   const double     own            = double(free) / (share_of_first + ranks.size() - 1);
   for (int rank = 1; rank <= ranks.size(); ++rank)
     begin_[rank] = rank < ranks.size() ? int(own * (share_of_first + rank - 1)) : int(free);
