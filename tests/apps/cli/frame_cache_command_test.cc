@@ -36,8 +36,10 @@ TEST_F(FrameCacheCommand, ARunFromItLoadsNoneOfTheHeavyLibraries)
       shell("LD_DEBUG=files " + called + "run " + scene + folder.option() + "--set run.end='\"20 us\"'");
   ASSERT_EQ(answer.exit_code, 0) << answer.text;
   ASSERT_TRUE(answer.says("libc.so")) << "the loader tells its files";
-  for (const char *library : {"libgestell_frame", "libdeal", "libpetsc", "libslepc", "libgmsh", "libmpi", "libTK"})
+  for (const char *library : {"libgestell_frame", "libdeal", "libpetsc", "libslepc", "libgmsh", "libTK"})
     EXPECT_FALSE(answer.says(library)) << library;
+  if (!answer.says("libsundials_core")) // of version 7, which Debian builds with MPI
+    EXPECT_FALSE(answer.says("libmpi"));
 }
 
 TEST_F(FrameCacheCommand, MovesAsTheFrameItIsFrom)

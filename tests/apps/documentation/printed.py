@@ -44,7 +44,7 @@ def negligible(shown, rows):
 def alike(shown, found, rows):
     """Numbers of two lines with one skeleton, to the digits shown."""
 
-    of_line = OF_LINE * max(magnitudes(shown), default=0.0)
+    of_line = OF_LINE * max([100.0] * (" %" in shown) + magnitudes(shown), default=0.0)  # 100 % is the whole
 
     def near(a, b, nothing):
         allowed = 1.001 * last_digit(a) + RELATIVE * abs(float(a)) + of_line

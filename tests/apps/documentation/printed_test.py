@@ -1,5 +1,9 @@
 """The comparison itself: it must find what differs, and pass over what may."""
 
+import os
+
+os.environ.pop("GESTELL_GMSH", None)  # as with the gmsh of the pages
+
 import printed
 
 LINE = "F_P                -601644.5     0.2449125         1056627     0.2341878  N"
