@@ -19,6 +19,18 @@ using Eigen::MatrixXd;
 
 } // namespace
 
+Eigen::VectorXd moved_by_rounding(const Eigen::MatrixXd &V, const Eigen::VectorXd &stiffness)
+{
+  return std::numeric_limits<double>::epsilon() * V.cwiseAbs2().transpose() * stiffness;
+}
+
+double largest_growth(const Eigen::VectorXd &omega, const Eigen::VectorXd &moved, double next, double shift)
+{
+  const Eigen::VectorXd distance = shift * shift - omega.array().square();
+  const double          above    = next * next - shift * shift;
+  return std::min(distance.cwiseQuotient(moved).minCoeff(), above / moved.maxCoeff());
+}
+
 SturmCheckedModes::SturmCheckedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
                                      Eigen::VectorXd stiffness)
     : kind_(std::move(kind)), options_(options), dense_(dense), stiffness_(std::move(stiffness))
@@ -83,10 +95,7 @@ void SturmCheckedModes::finish()
     gap_   = search_->gap_above(wanted_);
     found_ = search_->modes(gap_.below);
     search_.reset();
-    constexpr double eps = std::numeric_limits<double>::epsilon();
-    moved_.resize(found_.V.cols());
-    for (Eigen::Index j = 0; j < moved_.size(); ++j)
-      moved_(j) = eps * found_.V.col(j).cwiseAbs2().dot(stiffness_);
+    moved_ = moved_by_rounding(found_.V, stiffness_);
   }
 }
 
@@ -115,15 +124,6 @@ void SturmCheckedModes::look_for_missing(int missing, int count, double omega)
   }
 }
 
-/// E, of size growth * eps * diag(C), moves omega_j^2 by v_j^T E v_j, which must not pass the shift. The unknown mode
-/// above the gap is assumed to be as sensitive as those below it.
-double SturmCheckedModes::largest_growth(double shift) const
-{
-  const Eigen::VectorXd distance = shift * shift - found_.omega.array().square();
-  const double          above    = gap_.high * gap_.high - shift * shift;
-  return std::min(distance.cwiseQuotient(moved_).minCoeff(), above / moved_.maxCoeff());
-}
-
 Inertia SturmCheckedModes::count_in_gap(double &omega)
 {
   Inertia best{0, INFINITY};
@@ -134,7 +134,7 @@ Inertia SturmCheckedModes::count_in_gap(double &omega)
   {
     const double shift = std::isfinite(gap_.high) ? gap_.low + place * (gap_.high - gap_.low) : gap_.low * (1. + place);
     const auto   inertia = below(shift);
-    const double share   = inertia.growth / largest_growth(shift);
+    const double share   = inertia.growth / largest_growth(found_.omega, moved_, gap_.high, shift);
     if (share < least)
       best = inertia, omega = shift, least = share;
     if (least < 1.)

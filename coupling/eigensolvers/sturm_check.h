@@ -9,6 +9,14 @@
 namespace gestell::coupling
 {
 
+/// What rounding in the factor of C - omega^2 M moves the square of each frequency by, per growth of rounding: E of
+/// size growth * eps * diag(C) moves omega_j^2 by v_j^T E v_j.  @param stiffness  diagonal of C [n]
+Eigen::VectorXd moved_by_rounding(const Eigen::MatrixXd &V, const Eigen::VectorXd &stiffness);
+
+/// Growth up to which no mode passes the shift: none of those below it, and not the `next` one above, which is assumed
+/// to be as sensitive as they are.
+double largest_growth(const Eigen::VectorXd &omega, const Eigen::VectorXd &moved, double next, double shift);
+
 /**
  * The requested number of lowest modes of a frame, with a proof of completeness. A Krylov search may miss a mode
  * without notice, above all a multiple one. The number of negative eigenvalues of C - omega^2 M is the number of modes
@@ -77,7 +85,6 @@ private:
   virtual std::unique_ptr<ModeSearch> search(const BlockLanczos::Options &options, const LowestModes &known) const = 0;
 
   Inertia count_in_gap(double &omega);
-  double  largest_growth(double shift) const;
   void    look_for(const LowestModes &known, int count, int block);
   void    look_for_missing(int missing, int count, double omega);
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -52,6 +53,10 @@ SparseMatrix taken_from(const dealii::SparseMatrix<double> &A, const std::vector
         ++begin[i];
         begin[j] += j < i;
       });
+  const double entries = std::accumulate(result.outerIndexPtr(), result.outerIndexPtr() + n + 1, 0.);
+  if (entries > std::numeric_limits<int>::max())
+    throw std::runtime_error("frame: its matrices have " + std::to_string(entries) +
+                             " entries, more than can be numbered; use a coarser mesh");
   std::partial_sum(result.outerIndexPtr(), result.outerIndexPtr() + n + 1, result.outerIndexPtr());
   result.resizeNonZeros(result.outerIndexPtr()[n]);
   std::vector<int> next(result.outerIndexPtr(), result.outerIndexPtr() + n);

@@ -1,7 +1,7 @@
 #include "fem/assembly/sparse_sum.h"
 
 #include <algorithm>
-#include <cassert>
+#include <stdexcept>
 #include <vector>
 
 namespace gestell::fem
@@ -9,7 +9,8 @@ namespace gestell::fem
 
 void add(SparseMatrix &A, const Eigen::SparseMatrix<double> &S)
 {
-  assert(A.isCompressed() && S.isCompressed());
+  if (!A.isCompressed() || !S.isCompressed())
+    throw std::logic_error("sparse_sum: the matrices must be compressed");
   std::vector<int> place; // in A of every entry of S
   place.reserve(S.nonZeros());
   const int *rows = A.innerIndexPtr();

@@ -48,11 +48,11 @@ void require_valid(const Support &support)
 
 /// Rows of C of the cells, summed over the displacements of each output [3 n_nodes x n_outputs].
 /// @param output_of  a displacement, or -1
-Eigen::MatrixXd summed_rows(const std::vector<int> &output_of, int n_outputs, const QuadraticMesh &mesh,
-                            const CellMaterials &materials)
+Eigen::SparseMatrix<double> summed_rows(const std::vector<int> &output_of, int n_outputs, const QuadraticMesh &mesh,
+                                        const CellMaterials &materials)
 {
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(Eigen::Index(output_of.size()), n_outputs);
-  CellValues      values(mesh, CellPoints::rule);
+  std::vector<Eigen::Triplet<double>> entries;
+  CellValues                          values(mesh, CellPoints::rule);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
     std::vector<int> own; // displacements
@@ -65,8 +65,10 @@ Eigen::MatrixXd summed_rows(const std::vector<int> &output_of, int n_outputs, co
     for (std::size_t i = 0; i < own.size(); ++i)
       if (const int output = output_of[own[i]]; output >= 0)
         for (std::size_t j = 0; j < own.size(); ++j)
-          rows(own[j], output) += C(Eigen::Index(j), Eigen::Index(i));
+          entries.emplace_back(own[j], output, C(Eigen::Index(j), Eigen::Index(i)));
   }
+  Eigen::SparseMatrix<double> rows(Eigen::Index(output_of.size()), n_outputs);
+  rows.setFromTriplets(entries.begin(), entries.end());
   return rows;
 }
 
@@ -200,13 +202,13 @@ std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &suppo
           }
       outputs.push_back(std::move(output));
     }
-  const Eigen::MatrixXd rows = summed_rows(clamped_at, int(outputs.size()), mesh, materials);
+  const Eigen::SparseMatrix<double> rows = summed_rows(clamped_at, int(outputs.size()), mesh, materials);
   for (std::size_t k = 0; k < outputs.size(); ++k)
     if (supports[k / 3].support.kind == SupportKind::clamped)
     {
       std::vector<char> counted(n, 0);
       std::transform(clamped_at.begin(), clamped_at.end(), counted.begin(), [k](int at) { return at == int(k); });
-      const Eigen::VectorXd of_cells = affine.gather(rows.col(Eigen::Index(k)));
+      const Eigen::VectorXd of_cells = affine.gather(Eigen::VectorXd(rows.col(Eigen::Index(k))));
       outputs[k].on_q = of_cells + affine.gather(held_foundations_row(supports, &Support::stiffness, counted));
       outputs[k].on_v =
           rayleigh_stiffness * of_cells + affine.gather(held_foundations_row(supports, &Support::damping, counted));

@@ -3,6 +3,7 @@
 #include "coupling/algebra/multifrontal.h"
 #include "coupling/algebra/sparse_cholesky.h"
 #include "coupling/eigensolvers/block_lanczos.h"
+#include "coupling/eigensolvers/sturm_check.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 #include "fem/values/available_memory.h"
@@ -42,16 +43,18 @@ SparseCholesky factor_of(const PartOfFrame &part)
                               "supports cannot be cut. Leave out 'parts'");
 }
 
-/// Whether the inertia of C - omega^2 M gives no more modes below the gap than are found there.
-bool has_all(const PartOfFrame &part, const SparseCholesky &factor, const ModeSearch::Gap &gap)
+/// Whether the inertia of C - omega^2 M in the gap above the modes gives as many.
+bool has_all(const PartOfFrame &part, const SparseCholesky &factor, const LowestModes &modes,
+             const ModeSearch::Gap &gap)
 {
-  constexpr double places[]       = {0.5, 0.3, 0.7}; // in the gap, tried in this order
-  constexpr double largest_growth = 1e7;             // of rounding, 1 / sqrt(eps)
+  const VectorXd   moved    = moved_by_rounding(modes.V, part.sums.C.diagonal());
+  constexpr double places[] = {0.5, 0.3, 0.7, 0.2, 0.8}; // in the gap, tried in this order
   for (const double place : places)
   {
-    const double omega = std::isfinite(gap.high) ? gap.low + place * (gap.high - gap.low) : gap.low * (1. + place);
-    if (const Inertia below = factor.inertia(part.sums.C, part.sums.M, omega * omega); below.growth < largest_growth)
-      return below.negative <= gap.below;
+    const double shift = std::isfinite(gap.high) ? gap.low + place * (gap.high - gap.low) : gap.low * (1. + place);
+    if (const Inertia below = factor.inertia(part.sums.C, part.sums.M, shift * shift);
+        below.growth < largest_growth(modes.omega, moved, gap.high, shift))
+      return below.negative == gap.below;
   }
   throw ConvergenceFailure("parts: the modes of " + part.name + " cannot be counted below " +
                            rounded(gap.high / two_pi) + " Hz; request another number of modes");
@@ -60,7 +63,6 @@ bool has_all(const PartOfFrame &part, const SparseCholesky &factor, const ModeSe
 /// The lowest modes, none of them missing.  C is away while they are searched.
 LowestModes modes_of(PartOfFrame &part, const SparseCholesky &factor, int count)
 {
-  const bool            counted = contains(part.sums.C, part.sums.M);
   constexpr int         largest = 128; // block: of a frequency that is repeated as often
   BlockLanczos::Options options;
   for (; options.block <= largest; options.block *= 4)
@@ -73,11 +75,11 @@ LowestModes modes_of(PartOfFrame &part, const SparseCholesky &factor, int count)
       BlockLanczos search(part.sums.M, std::make_shared<InverseByFactor>(factor, part.held), options);
       search.find(count);
       gap   = search.gap_above(count);
-      modes = search.modes(count);
+      modes = search.modes(gap.below);
     }
     part.sums.C = part.stiffness();
-    if (!counted || has_all(part, factor, gap))
-      return modes;
+    if (has_all(part, factor, modes, gap))
+      return {modes.omega.head(count), modes.V.leftCols(count), modes.bound.head(count)};
   }
   throw ConvergenceFailure("parts: some of the lowest " + std::to_string(count) + " modes of " + part.name +
                            " are not found; request another number of modes");

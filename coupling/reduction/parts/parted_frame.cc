@@ -104,7 +104,8 @@ void for_each_part(const CutFrame &cut, const PartsCall &call, const std::string
                    const Take &take)
 {
   std::mutex mutex;
-  fem::side_by_side(cut.size(), call.at_once, call.progress,
+  const int  at_once = fem::in_one_process() ? 1 : std::min(call.at_once, cut.size());
+  fem::side_by_side(cut.size(), at_once, call.progress,
                     [&](int p, const Progress &progress)
                     {
                       fem::ChildTask task;

@@ -196,10 +196,12 @@ MatrixXd FixedInterfaceFrame::product(Given which, const Eigen::Ref<const Matrix
 {
   if (!given_)
     return symmetric_product(which == Given::C ? frame_.C : frame_.M, X);
-  const SparseMatrix &columns = at(which).columns;
-  const MatrixXd      on_q1   = X(q1_, Eigen::all);
-  MatrixXd            Y       = columns * on_q1;
+  const SparseMatrix &columns = at(which).columns, rows = columns.transpose();
+  const MatrixXd      on_q1 = X(q1_, Eigen::all);
+  MatrixXd            Y = exact_product(rows, on_q1), lost = -Y;
+  exact_product(rows, on_q1, lost); // the rounding of Y, which remains where A22 X2 cancels Y
   factor_->add_product(which, X, Y);
+  Y += lost;
   Y(q1_, Eigen::all) = exact_product(columns, X);
   return Y;
 }
