@@ -16,10 +16,10 @@ void use_fitting_blas_kernels();
 /// @throws std::invalid_argument if the BLAS in this process is another library: others are slower by an order.
 void use_one_blas_thread();
 
+/// The same with a given number of threads.
+void use_blas_threads(int n);
+
 /// Number that the environment variable OPENBLAS_NUM_THREADS requests, which --jobs sets; 1 without it.
 int jobs_requested();
-
-/// The same with this number of threads.
-void use_blas_threads(int n);
 
 } // namespace gestell::coupling

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <memory>
+#include <new>
 #include <numeric>
 #include <string>
 
@@ -143,15 +145,24 @@ LargeArray *given_memory(Mat F, int spare)
   for (const int option : {on_disk, limit, discarded, low_rank})
     if (mumps && mumps->icntl[option - 1] != 0)
       size = 0.;
-  double least = size;
+  const double                millions = std::ceil(1e-6 * size * (1. + 0.01 * spare)) + 1.;
+  std::unique_ptr<LargeArray> array;
+  try
+  {
+    if (size >= worthwhile)
+      array = std::make_unique<LargeArray>(std::size_t(1e6 * millions));
+  }
+  catch (const std::bad_alloc &) // MUMPS says so better
+  {
+  }
+  double least = array ? size : 0.;
   MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, PetscObjectComm(PetscObject(F)));
   if (least < worthwhile)
     return nullptr;
-  const double millions = std::ceil(1e-6 * size * (1. + 0.01 * spare)) + 1.;
-  auto *const  memory   = new LargeArray(std::size_t(1e6 * millions));
-  mumps->wk_user        = memory->data();
-  mumps->lwk_user       = -int(millions);
-  PetscContainer owner  = nullptr;
+  auto *const memory   = array.release();
+  mumps->wk_user       = memory->data();
+  mumps->lwk_user      = -int(millions);
+  PetscContainer owner = nullptr;
   require(PetscContainerCreate(PETSC_COMM_SELF, &owner));
   PetscContainerSetPointer(owner, memory);
   PetscContainerSetUserDestroy(owner,

@@ -28,8 +28,8 @@ struct CloseFile
 using StoredRows = std::unique_ptr<std::FILE, CloseFile>; ///< deleted when it is closed
 
 /**
- * The free coordinates of a frame on rank 0 as rows of PETSc: in the order of nested dissection, an interval of about
- * equal length per rank, so that few couplings cross ranks.
+ * The free coordinates of a frame on rank 0 as rows of PETSc: in the order of nested dissection, an interval per
+ * rank, which is half as long for rank 0, so that few couplings cross ranks.
  *
  * Every function but the first four is collective.
  */

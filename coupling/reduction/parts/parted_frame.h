@@ -24,7 +24,7 @@ struct PartsCall
  * by the method in `options`.  Each part is reduced in a child process, so that its memory goes back to the system, and
  * is found in the cache when the frame is reduced again (stored_part()); the result does not depend on either.  The
  * coordinates of several parts and those of the mechanism are the interface of a part, all of them exact.  Neither the
- * matrices of the frame nor a factor of them are stored.  A statement gives the first- order bound of the error of the
+ * matrices of the frame nor a factor of them are stored.  A statement gives the first-order bound of the error of the
  * truncated modes of parts.
  *
  * @param frame  M, B, C without the sums over cells.

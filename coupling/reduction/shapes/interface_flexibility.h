@@ -20,7 +20,7 @@ namespace gestell::coupling
 Eigen::MatrixXd motions_without_stiffness(const Eigen::MatrixXd &S, const ReductionBasis &basis,
                                           const fem::FrameMatrices &frame);
 
-/// Whether there may be any: below it none is, which saves a search through C.
+/// Whether a motion may be free; if not, the search through C is saved.
 bool may_move_freely(const Eigen::MatrixXd &S);
 
 /// S^+ on the complement of its null vectors Z [n1 x k]: the rounding errors of S along them are removed.
