@@ -106,9 +106,11 @@ TEST(Ranks, OfAnotherBuildAreRefused)
   fs::permissions(folder / "gestell", fs::perms::owner_all);
   for (const char *library : {"libgestell_team.so", "libgestell_frame.so"})
     fs::create_symlink(built / library, folder / library);
-  const std::string other = "\"" + (folder / "gestell").string() + "\"";
-  expect_answer(on_ranks(2, "cd \"" + (folder / "").string() + "\" && if [ $OMPI_COMM_WORLD_RANK = 1 ]; then " + other +
-                                " reduce frame.toml; else " + program + " reduce frame.toml; fi"),
+  const Cases       cases(1);
+  const std::string call = " run case.toml --quiet", other = "\"" + (folder / "gestell").string() + "\"" + call;
+  expect_answer(on_ranks(2, "cd \"" + (cases.folder / "in0").string() +
+                                "\" && if [ $OMPI_COMM_WORLD_RANK = 1 ]; then " + other + "; else " + program + call +
+                                "; fi"),
                 2, {"gestell: mpirun: 1 of 2 ranks run another build of gestell than rank 0; install the same"});
 }
 
