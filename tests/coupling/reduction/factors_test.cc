@@ -193,6 +193,7 @@ TEST(FactorOptions, OfMumpsReachItsFactor)
 
 TEST(MumpsFactor, EliminatesInTheOrderOfItsRows)
 {
+  fem::petsc_session();
   const FixedLattice              lattice;
   const fem::Ranks                alone = fem::Ranks::alone();
   const coupling::RowDistribution rows(alone, &lattice.frame.C, lattice.held);
