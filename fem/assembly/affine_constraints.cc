@@ -92,7 +92,7 @@ AffineConstraints::AffineConstraints(const MultipointConstraints &constraints)
   const auto &[held, holder, tie_of, ties, measures, n_interface] = constraints_;
   const int  n_displacements = static_cast<int>(held.size()), n_values = static_cast<int>(index_.size());
   const auto is_free = [&](int value) { return value >= n_displacements || (!held[value] && tie_of[value] < 0); };
-  // Free displacements, inner coordinates, coordinates of interfaces, and what depends on them.
+  // Free displacements, internal DOFs of averaged surfaces, DOFs of interfaces, and what depends on them.
   int n = 0;
   for (int i = 0; i < n_displacements; ++i)
     if (is_free(i))

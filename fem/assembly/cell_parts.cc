@@ -58,9 +58,6 @@ std::vector<idx_t> groups_of_cells(const QuadraticMesh &mesh, const AffineConstr
   CellGroups       groups(mesh.n_cells());
   std::vector<int> moved(affine.n_coordinates(), -1); // a cell with a tied node that the coordinate moves
   std::vector<int> first(mesh.n_nodes(), -1);         // cell of a tied node
-  int              n_free = 0;                        // coordinates that are displacements: the first ones
-  for (int i = 0; i < affine.n_displacements(); ++i)
-    n_free = std::max(n_free, affine.coordinate(i) + 1);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
     for (int a = 0; a < mesh.n_nodes_of(cell); ++a)
     {
@@ -74,7 +71,7 @@ std::vector<idx_t> groups_of_cells(const QuadraticMesh &mesh, const AffineConstr
         if (affine.coordinate(i) < 0)
           for (const auto &[coordinate, weight] : affine.row(i))
           {
-            if (coordinate >= n_free)
+            if (coordinate >= affine.n_free())
               continue;
             first[node] = cell;
             if (moved[coordinate] >= 0)

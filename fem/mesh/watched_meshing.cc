@@ -91,6 +91,17 @@ void require_cells(double n, const std::string &what, const MeshOptions &options
         " cells; use a larger size, remove small edges and faces (defeature), or increase max_cells.");
 }
 
+namespace
+{
+
+void require_triangles(const MeshOptions &options)
+{
+  const double n = static_cast<double>(number_of_triangles());
+  require_cells(0.5 * n, "the surfaces alone have " + text(n) + " triangles", options); // two at most to a cell
+}
+
+} // namespace
+
 void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpecification &specification,
                    const GmshSession &session, const SurfaceSizes &sizes)
 {
@@ -116,24 +127,20 @@ void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpeci
                           text(excess) +
                           " times the intended number of triangles, so elements grow from them to the size");
   }
-  const double n = static_cast<double>(number_of_triangles());
-  require_cells(0.5 * n, "the surfaces alone have " + text(n) + " triangles", options); // two at most to a cell
+  require_triangles(options);
 }
 
 namespace
 {
 
-/// gmsh's frontal method can leave two equal triangles at the tip of a cone (4.13).  As many as these are accepted
-/// only: another method must not pass the limits of mesh_surfaces().
-void mesh_surfaces_by_delaunay()
+/// gmsh's frontal method can leave two equal triangles at the tip of a cone (4.13).
+void mesh_surfaces_by_delaunay(const MeshOptions &options)
 {
-  constexpr double delaunay = 5., as_many = 2.; // number of gmsh; triangles, of those before
-  const double     before = static_cast<double>(number_of_triangles());
+  constexpr double delaunay = 5.; // number of gmsh
   const OptionHere method("Mesh.Algorithm", delaunay);
   gmsh::model::mesh::clear();
   mesh_to_the_end(2);
-  if (static_cast<double>(number_of_triangles()) > as_many * before)
-    throw std::invalid_argument("Delaunay's method gives too many triangles");
+  require_triangles(options);
 }
 
 } // namespace
@@ -154,7 +161,7 @@ void mesh_volumes(CadModel &model, const FrameSpecification &specification, cons
   }
   try
   {
-    session.run(mesh_surfaces_by_delaunay, "", "");
+    session.run([&] { mesh_surfaces_by_delaunay(specification.mesh); }, "", "");
     session.run(mesh, "", "");
     model.notes.push_back(note + "it succeeded after this method meshed the surfaces as well");
     return;

@@ -90,7 +90,7 @@ struct FrameFacts
   std::vector<SolidMass> parts;
   MassProperties         whole;
   /// Largest strain energy of the six rigid-body modes of the unsupported frame, relative to the energies that cancel
-  /// in it: rounding (about 1e-15) for a correct assembly; nan if unknown.
+  /// in it, summed over the cells: rounding (about 1e-15) unless a cell is wrong; nan if unknown.
   double rigid_energy = std::numeric_limits<double>::quiet_NaN();
   /// Names of the rigid-body modes of the supported frame (no elastic energy); see free_motions().
   std::vector<std::string> free_motions;

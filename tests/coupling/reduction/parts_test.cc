@@ -191,7 +191,7 @@ TEST_F(FrameInParts, TakesPartsThatAreDoneFromTheCache)
     EXPECT_EQ(entry.n_modes, 40);
     EXPECT_EQ(entry.origin.scene, frame.specification.place);
   }
-  EXPECT_FALSE(coupling::nearest_entry(entries, {})) << "a part is no frame";
+  EXPECT_FALSE(coupling::nearest_entry(entries, {})) << "a part is not a frame";
 
   // interrupted before the last one, and a damaged one: these two are made again
   std::filesystem::remove(folder / *all.begin());
@@ -224,7 +224,7 @@ TEST_F(FrameInParts, EndsWithTheMessageOfAPartThatFails)
   loose.specification.supports.clear();
   loose.specification.masses.clear();
   loose.specification.cuts.clear();
-  // another body beside it, which nothing holds
+  // an unconstrained body beside it
   const fem::Mesh other = loose.mesh;
   const int       n     = int(other.points.size());
   for (fem::Point3 point : other.points)

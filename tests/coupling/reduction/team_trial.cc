@@ -53,7 +53,7 @@ gestell::fem::FrameMatrices lattice_frame(double foundation = 3e6)
   return gestell::test::frame_of(lattice);
 }
 
-/// @returns the number of ranks with a share of the factor of a plate, if all were told to keep to the order of rows.
+/// @returns the number of ranks with a share of the factor of a plate; 0 unless all eliminate in the order of rows.
 int shares_of_factor(const Ranks &ranks)
 {
   using namespace gestell::coupling;
