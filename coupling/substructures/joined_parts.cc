@@ -170,7 +170,8 @@ ReducedFrame facts_of(const std::vector<ReducedFrame> &parts, const FrameOfParts
     whole.frequency_limit_hz = std::min(whole.frequency_limit_hz, part.frequency_limit_hz);
     whole.facts.parts.insert(whole.facts.parts.end(), part.facts.parts.begin(), part.facts.parts.end());
     whole.facts.whole.add(part.facts.whole);
-    whole.facts.rigid_energy = std::max(whole.facts.rigid_energy, part.facts.rigid_energy);
+    if (!(part.facts.rigid_energy <= whole.facts.rigid_energy) && !std::isnan(whole.facts.rigid_energy))
+      whole.facts.rigid_energy = part.facts.rigid_energy; // unknown if that of one part is
     append(whole.notes, frame.parts[i].name, part.notes);
     append(whole.cache_notes, frame.parts[i].name, part.cache_notes);
     append(whole.statements, frame.parts[i].name, part.statements);

@@ -25,9 +25,16 @@ namespace
 
 using Indices = std::vector<dealii::types::global_dof_index>;
 
+/// Entries of a matrix that are taken.
+enum class Entries
+{
+  of_pattern,
+  other_than_zero
+};
+
 /// Rows and columns of A; the upper triangle is a copy of the lower one, since sums over ties are rounded in the order
 /// of rows.
-SparseMatrix taken_from(const dealii::SparseMatrix<double> &A, const std::vector<int> &coordinates)
+SparseMatrix taken_from(const dealii::SparseMatrix<double> &A, const std::vector<int> &coordinates, Entries entries)
 {
   std::vector<int> number(A.m(), -1);
   for (std::size_t i = 0; i < coordinates.size(); ++i)
@@ -40,7 +47,7 @@ SparseMatrix taken_from(const dealii::SparseMatrix<double> &A, const std::vector
       const unsigned int row   = coordinates[i];
       auto               entry = A.begin(row);
       for (++entry; entry != A.end(row) && entry->column() < row; ++entry) // deal.II stores the diagonal first
-        if (const int j = number[entry->column()]; j >= 0)
+        if (const int j = number[entry->column()]; j >= 0 && (entries == Entries::of_pattern || entry->value() != 0.))
           visit(i, j, entry->value());
       visit(i, i, A.diag_element(row));
     }
@@ -53,9 +60,9 @@ SparseMatrix taken_from(const dealii::SparseMatrix<double> &A, const std::vector
         ++begin[i];
         begin[j] += j < i;
       });
-  const double entries = std::accumulate(result.outerIndexPtr(), result.outerIndexPtr() + n + 1, 0.);
-  if (entries > std::numeric_limits<int>::max())
-    throw std::runtime_error("frame: its matrices have " + std::to_string(entries) +
+  const double count = std::accumulate(result.outerIndexPtr(), result.outerIndexPtr() + n + 1, 0.);
+  if (count > std::numeric_limits<int>::max())
+    throw std::runtime_error("frame: its matrices have " + std::to_string(count) +
                              " entries, more than can be numbered; use a coarser mesh");
   std::partial_sum(result.outerIndexPtr(), result.outerIndexPtr() + n + 1, result.outerIndexPtr());
   result.resizeNonZeros(result.outerIndexPtr()[n]);
@@ -73,6 +80,11 @@ SparseMatrix taken_from(const dealii::SparseMatrix<double> &A, const std::vector
           put(i, j, value);
       });
   return result;
+}
+
+dealii::FullMatrix<double> full(const Eigen::MatrixXd &A)
+{
+  return {static_cast<unsigned int>(A.rows()), static_cast<unsigned int>(A.cols()), A.data()}; // symmetric
 }
 
 } // namespace
@@ -148,39 +160,39 @@ Eigen::SparseMatrix<double> AffineConstraints::project(const Eigen::SparseMatrix
   return 0.5 * (P + Eigen::SparseMatrix<double>(P.transpose()));
 }
 
-SparseMatrix AffineConstraints::sum(const Extent &extent, int directions,
-                                    const std::function<std::vector<int>(int cell)> &nodes,
-                                    const std::function<Eigen::MatrixXd(int cell)>  &matrix) const
+MatrixSums AffineConstraints::sum(const Extent &extent, const std::function<std::vector<int>(int cell)> &nodes,
+                                  const std::function<CellMatrices(int cell)> &matrices) const
 {
-  Indices    indices;
-  const auto for_each_block = [&](int cell, const auto &visit)
+  const dealii::AffineConstraints<double> &lines     = lines_->of;
+  const auto                               index_set = [&](const std::vector<int> &of_cell, int first, int count)
   {
-    const std::vector<int> of_cell = nodes(cell);
-    for (int first = 0; first < 3; first += directions)
-    {
-      indices.clear();
-      for (const int node : of_cell)
-        for (int d = first; d < first + directions; ++d)
-          indices.push_back(index_[3 * node + d]);
-      visit();
-    }
+    Indices indices;
+    for (const int node : of_cell)
+      for (int d = first; d < first + count; ++d)
+        indices.push_back(index_[3 * node + d]);
+    return indices;
   };
 
-  dealii::SparsityPattern pattern;
+  dealii::SparsityPattern pattern; // of C, and of M with zeros between unlike directions
   {
-    dealii::DynamicSparsityPattern pairs(n_coordinates() + lines_->of.n_constraints());
+    dealii::DynamicSparsityPattern pairs(n_coordinates() + lines.n_constraints());
     for (const int cell : extent.cells)
-      for_each_block(cell, [&] { lines_->of.add_entries_local_to_global(indices, pairs, false); });
+      lines.add_entries_local_to_global(index_set(nodes(cell), 0, 3), pairs, false);
     pattern.copy_from(pairs);
   }
-  dealii::SparseMatrix<double> A(pattern);
+
+  dealii::SparseMatrix<double> C(pattern), M(pattern);
   for (const int cell : extent.cells)
   {
-    const Eigen::MatrixXd            of_cell = matrix(cell);
-    const dealii::FullMatrix<double> own(of_cell.rows(), of_cell.cols(), of_cell.data());
-    for_each_block(cell, [&] { lines_->of.distribute_local_to_global(own, indices, A); });
+    const std::vector<int> of_cell = nodes(cell);
+    const CellMatrices     own     = matrices(cell);
+    lines.distribute_local_to_global(full(own.C), index_set(of_cell, 0, 3), C);
+    const dealii::FullMatrix<double> own_M = full(own.M);
+    for (int d = 0; d < 3; ++d)
+      lines.distribute_local_to_global(own_M, index_set(of_cell, d, 1), M);
   }
-  return taken_from(A, extent.coordinates);
+  return {taken_from(C, extent.coordinates, Entries::of_pattern),
+          taken_from(M, extent.coordinates, Entries::other_than_zero)};
 }
 
 } // namespace gestell::fem

@@ -43,6 +43,19 @@ struct Extent
   std::vector<int> cells, coordinates;
 };
 
+/// Matrices of one cell.
+struct CellMatrices
+{
+  Eigen::MatrixXd C; ///< [3 n x 3 n], with the displacements of a node beside each other
+  Eigen::MatrixXd M; ///< [n x n], the same for each direction
+};
+
+/// Sums over cells, symmetric to the last bit.
+struct MatrixSums
+{
+  SparseMatrix C, M;
+};
+
 /**
  * The transformation  u = G q  to the coordinates q of the constrained frame, by deal.II's AffineConstraints.
  *
@@ -76,15 +89,9 @@ public:
   /// G^T A G, symmetric to the last bit as A is.
   Eigen::SparseMatrix<double> project(const Eigen::SparseMatrix<double> &A) const;
 
-  /**
-   * G^T A G of the sum A of the matrices of cells, symmetric to the last bit.
-   *
-   * @param directions  3 for matrices [3 n x 3 n], with the displacements of a node beside each other; 1 for [n x n],
-   *                    the same for each direction
-   * @param nodes, matrix  of a cell
-   */
-  SparseMatrix sum(const Extent &extent, int directions, const std::function<std::vector<int>(int cell)> &nodes,
-                   const std::function<Eigen::MatrixXd(int cell)> &matrix) const;
+  /// G^T A G of the sums A of the matrices of cells.
+  MatrixSums sum(const Extent &extent, const std::function<std::vector<int>(int cell)> &nodes,
+                 const std::function<CellMatrices(int cell)> &matrices) const;
 
 private:
   struct Lines;

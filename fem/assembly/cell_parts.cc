@@ -188,11 +188,9 @@ std::vector<int> CellParts::coordinates(int part) const
 
 PartMatrices CellParts::matrices(int part) const
 {
-  Extent       extent{cells_[part], coordinates(part)};
-  PartMatrices result{
-      assemble_stiffness(mesh_, materials_, affine_, extent), assemble_mass(mesh_, materials_, affine_, extent), {}};
-  result.coordinates = std::move(extent.coordinates);
-  return result;
+  Extent     extent{cells_[part], coordinates(part)};
+  MatrixSums sums = assemble(mesh_, materials_, affine_, extent);
+  return {std::move(sums.C), std::move(sums.M), std::move(extent.coordinates)};
 }
 
 } // namespace gestell::fem

@@ -16,17 +16,6 @@ Eigen::MatrixXd weighted_squares(const Eigen::MatrixXd &A, const Eigen::VectorXd
   return product;
 }
 
-template <typename Matrix>
-SparseMatrix assemble(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
-                      const Extent &extent, int directions, const Matrix &matrix)
-{
-  CellValues values(mesh, CellPoints::rule);
-  return affine.sum(
-      extent, directions,
-      [&](int cell) { return std::vector<int>(mesh.nodes(cell), mesh.nodes(cell) + mesh.n_nodes_of(cell)); },
-      [&](int cell) { return matrix(values.of(cell), materials[cell]); });
-}
-
 std::vector<int> up_to(int n)
 {
   std::vector<int> numbers(n);
@@ -61,17 +50,17 @@ Eigen::MatrixXd mass_matrix(const PointValues &cell, double rho)
   return rho * weighted_squares(cell.N, cell.weight);
 }
 
-SparseMatrix assemble_stiffness(const QuadraticMesh &mesh, const CellMaterials &materials,
-                                const AffineConstraints &affine, const Extent &extent)
+MatrixSums assemble(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
+                    const Extent &extent)
 {
-  return assemble(mesh, materials, affine, extent, 3, stiffness_matrix);
-}
-
-SparseMatrix assemble_mass(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
-                           const Extent &extent)
-{
-  return assemble(mesh, materials, affine, extent, 1,
-                  [](const PointValues &cell, const Material &material) { return mass_matrix(cell, material.rho); });
+  CellValues values(mesh, CellPoints::rule);
+  return affine.sum(
+      extent, [&](int cell) { return std::vector<int>(mesh.nodes(cell), mesh.nodes(cell) + mesh.n_nodes_of(cell)); },
+      [&](int cell) -> CellMatrices
+      {
+        const PointValues &at = values.of(cell);
+        return {stiffness_matrix(at, materials[cell]), mass_matrix(at, materials[cell].rho)};
+      });
 }
 
 Extent whole(const QuadraticMesh &mesh, const AffineConstraints &affine)

@@ -22,11 +22,9 @@ Eigen::MatrixXd stiffness_matrix(const PointValues &cell, const Material &materi
 /// Consistent mass rho int N_a N_b dV [kg] of every direction [n x n].
 Eigen::MatrixXd mass_matrix(const PointValues &cell, double rho);
 
-/// C and M of these cells in the coordinates of the frame, see AffineConstraints::sum().
-SparseMatrix assemble_stiffness(const QuadraticMesh &mesh, const CellMaterials &materials,
-                                const AffineConstraints &affine, const Extent &extent);
-SparseMatrix assemble_mass(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
-                           const Extent &extent);
-Extent       whole(const QuadraticMesh &mesh, const AffineConstraints &affine);
+/// Sums of both over these cells in the coordinates of the frame.
+MatrixSums assemble(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
+                    const Extent &extent);
+Extent     whole(const QuadraticMesh &mesh, const AffineConstraints &affine);
 
 } // namespace gestell::fem

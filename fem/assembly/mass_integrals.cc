@@ -1,7 +1,6 @@
 #include "fem/assembly/mass_integrals.h"
 
 #include "fem/assembly/elasticity.h"
-#include "fem/assembly/rigid_motions.h"
 
 namespace gestell::fem
 {
@@ -79,22 +78,6 @@ Eigen::Vector3d middle_of_nodes(const QuadraticMesh &mesh)
   for (int i = 0; i < mesh.n_nodes(); ++i)
     middle += point(mesh, i) / mesh.n_nodes();
   return middle;
-}
-
-double rigid_energy_share(const QuadraticMesh &mesh, const CellMaterials &materials, const Eigen::Vector3d &middle)
-{
-  Eigen::Array<double, 6, 1> energy = Eigen::Array<double, 6, 1>::Zero(), cancelling = energy;
-  CellValues                 values(mesh, CellPoints::rule);
-  for (int cell = 0; cell < mesh.n_cells(); ++cell)
-  {
-    const Eigen::MatrixXd                    C = stiffness_matrix(values.of(cell), materials[cell]);
-    Eigen::Matrix<double, Eigen::Dynamic, 6> u(C.rows(), 6);
-    for (Eigen::Index a = 0; 3 * a < C.rows(); ++a)
-      u.middleRows<3>(3 * a) = rigid_motions_of_point(mesh.points[mesh.nodes(cell)[a]], middle);
-    energy += u.cwiseProduct(C * u).colwise().sum().transpose().array();
-    cancelling += u.cwiseAbs().cwiseProduct(C.cwiseAbs() * u.cwiseAbs()).colwise().sum().transpose().array();
-  }
-  return (energy.abs() / cancelling).maxCoeff();
 }
 
 } // namespace gestell::fem

@@ -32,10 +32,6 @@ Eigen::MatrixXd acceleration_load(const Eigen::VectorXd &nodal_mass, const Affin
 std::vector<FrameFacts::SolidMass> solid_masses(const Mesh &mesh, const QuadraticMesh &quadratic,
                                                 const CellMaterials &materials);
 
-/// Largest quotient of the energies u^T C u of the six rigid motions about `middle` and of sum |u|^T |C_K| |u| over the
-/// cells K, whose terms cancel in them: of rounding size unless an element is wrong.
-double rigid_energy_share(const QuadraticMesh &mesh, const CellMaterials &materials, const Eigen::Vector3d &middle);
-
 Eigen::Vector3d middle_of_nodes(const QuadraticMesh &mesh);
 
 } // namespace gestell::fem

@@ -260,13 +260,16 @@ RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materia
   RaisedFrame             result;
   for (int i = 0; i < affine.n_coordinates(); ++i)
     result.place.push_back(i < affine.n_free() ? i : i + raised.n_free() - affine.n_free());
-  RaisedCells  cells(mesh, cubics);
-  const Extent all   = whole(mesh, raised);
-  const auto   nodes = [&](int cell) { return cells.nodes(cell); };
-  const auto   C_of  = [&](int cell) { return stiffness_matrix(cells.of(cell), materials[cell]); };
-  const auto   M_of  = [&](int cell) { return mass_matrix(cells.of(cell), materials[cell].rho); };
-  result.C           = with_frame(raised.sum(all, 3, nodes, C_of), C, result.place);
-  result.M           = with_frame(raised.sum(all, 1, nodes, M_of), M, result.place);
+  RaisedCells cells(mesh, cubics);
+  const auto  matrices = [&](int cell) -> CellMatrices
+  {
+    const PointValues &at = cells.of(cell);
+    return {stiffness_matrix(at, materials[cell]), mass_matrix(at, materials[cell].rho)};
+  };
+  MatrixSums sums = raised.sum(
+      whole(mesh, raised), [&](int cell) { return cells.nodes(cell); }, matrices);
+  result.C = with_frame(std::move(sums.C), C, result.place);
+  result.M = with_frame(std::move(sums.M), M, result.place);
   return result;
 }
 

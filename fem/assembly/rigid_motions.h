@@ -29,9 +29,14 @@ Eigen::Matrix<double, 3, 6> rigid_motions_of_point(const Point3 &x, const Centre
 Eigen::MatrixXd rigid_displacements(const QuadraticMesh &mesh, const Eigen::Vector3d &x0);
 
 /// The same in the coordinates of the frame [n x 6]; interfaces move with their positions.
-Eigen::MatrixXd rigid_coordinates(const QuadraticMesh &mesh, const Eigen::Vector3d &x0,
-                                  const MultipointConstraints &constraints, const AffineConstraints &affine,
+Eigen::MatrixXd rigid_coordinates(const QuadraticMesh &mesh, const Eigen::Vector3d &x0, const AffineConstraints &affine,
                                   const std::vector<Interface> &interfaces);
+
+/// Largest quotient  sum |q_i (C q)_i| / sum |q_i| (|C| |q|)_i  of the rigid motions q, C summed over the cells alone:
+/// of rounding size unless an element, a coupling or a sum is wrong.  Both sums are over rows i to which no cell at a
+/// support adds, since held displacements do not move rigidly; nan if there is none.
+double rigid_energy_share(const SparseMatrix &C, const Eigen::MatrixXd &motions, const QuadraticMesh &mesh,
+                          const AffineConstraints &affine);
 
 /**
  * Rigid-body modes of the frame with some coordinates fixed, as text: "translation along x", "rotation about z",

@@ -26,15 +26,6 @@ namespace gestell::fem
 namespace
 {
 
-/// Sums over the cells of a frame.
-struct AssembledMatrices
-{
-  SparseMatrix    C, M;              ///< [n x n] in the coordinates of the frame
-  double          rigid_energy = 0.; ///< FrameFacts::rigid_energy
-  Eigen::VectorXd nodal_mass;        ///< [n_nodes] kg
-  MassProperties  whole;
-};
-
 /// Whose sums over cells are made.
 enum class CellSums
 {
@@ -42,25 +33,13 @@ enum class CellSums
   of_parts ///< C and M remain zero: CellParts makes them part by part
 };
 
-AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
-                            CellSums of)
+MatrixSums sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
+                     CellSums of)
 {
-  const Eigen::Vector3d middle = middle_of_nodes(mesh);
-  const NodalMasses     masses = nodal_masses(mesh, materials, middle);
-  AssembledMatrices     sums;
-  sums.whole        = mass_integrals(mesh, masses, middle);
-  sums.nodal_mass   = masses.mass;
-  sums.rigid_energy = FrameFacts().rigid_energy;
-  sums.C.resize(affine.n_coordinates(), affine.n_coordinates());
-  sums.M = sums.C;
   if (of == CellSums::of_frame)
-  {
-    const Extent all  = whole(mesh, affine);
-    sums.rigid_energy = rigid_energy_share(mesh, materials, middle);
-    sums.C            = assemble_stiffness(mesh, materials, affine, all);
-    sums.M            = assemble_mass(mesh, materials, affine, all);
-  }
-  return sums;
+    return assemble(mesh, materials, affine, whole(mesh, affine));
+  const SparseMatrix zero(affine.n_coordinates(), affine.n_coordinates());
+  return {zero, zero};
 }
 
 /// Skin of the frame with its corners as points; tied corners move with their interfaces, fixed corners do not move.
@@ -144,10 +123,10 @@ struct Ingredients
 };
 
 /// Mass, centre and the load of a unit acceleration: of the cells, and with all that is attached.
-void weigh(const Ingredients &of, const MassProperties &cells, const Eigen::VectorXd &nodal_mass, FrameMatrices &frame)
+void weigh(const Ingredients &of, const NodalMasses &cells, const Eigen::Vector3d &origin, FrameMatrices &frame)
 {
-  frame.acceleration_load = acceleration_load(nodal_mass, of.affine);
-  frame.facts.whole       = cells;
+  frame.acceleration_load = acceleration_load(cells.mass, of.affine);
+  frame.facts.whole       = mass_integrals(of.mesh, cells, origin);
   for (const AttachedMass &mass : of.specification.masses)
   {
     frame.facts.whole.add(properties_of(mass, node_of(mass, of.nodes)));
@@ -162,24 +141,27 @@ void weigh(const Ingredients &of, const MassProperties &cells, const Eigen::Vect
 void add_matrices(const Ingredients &of, CellSums cells, FrameMatrices &frame)
 {
   const auto &[specification, mesh, materials, supports, affine, nodes] = of;
-  const Eigen::SparseMatrix<double> C_beside = foundations(supports, &Support::stiffness, affine);
-  const Eigen::SparseMatrix<double> M_beside = mass_matrix(specification.masses, nodes, affine.n_coordinates());
-
-  AssembledMatrices sums   = sum_cells(mesh, materials, affine, cells);
-  frame.C                  = std::move(sums.C);
-  frame.M                  = std::move(sums.M);
-  frame.facts.rigid_energy = sums.rigid_energy;
+  const Eigen::Vector3d middle                                          = middle_of_nodes(mesh);
+  const NodalMasses     masses                                          = nodal_masses(mesh, materials, middle);
+  weigh(of, masses, middle, frame);
   for (FrameOutput &output :
-       support_forces(supports, mesh, materials, affine, sums.nodal_mass, specification.rayleigh_stiffness))
+       support_forces(supports, mesh, materials, affine, masses.mass, specification.rayleigh_stiffness))
     frame.outputs.push_back(std::move(output));
-  weigh(of, sums.whole, sums.nodal_mass, frame);
+  frame.rigid_motions = rigid_coordinates(mesh, frame.facts.whole.centre, affine, nodes);
+  frame.translations  = frame.rigid_motions.leftCols(3);
+
+  MatrixSums sums = sum_cells(mesh, materials, affine, cells);
+  frame.C         = std::move(sums.C);
+  frame.M         = std::move(sums.M);
+  if (cells == CellSums::of_frame)
+    frame.facts.rigid_energy = rigid_energy_share(frame.C, frame.rigid_motions, mesh, affine);
   frame.B = foundations(supports, &Support::damping, affine);
   if (specification.rayleigh_stiffness > 0.)
     add(frame.B, specification.rayleigh_stiffness * frame.C);
   if (specification.rayleigh_mass > 0.)
     add(frame.B, specification.rayleigh_mass * frame.M);
-  add(frame.C, C_beside);
-  add(frame.M, M_beside);
+  add(frame.C, foundations(supports, &Support::stiffness, affine));
+  add(frame.M, mass_matrix(specification.masses, nodes, affine.n_coordinates()));
 }
 
 MultipointConstraints constrain(const QuadraticMesh &mesh, const std::vector<SupportedPatch> &supports,
@@ -247,9 +229,7 @@ Discretisation discretise(const Mesh &mesh, const FrameSpecification &specificat
 
   add_matrices({specification, quadratic, materials, supports, affine, nodes}, cells, frame);
 
-  frame.rigid_motions = rigid_coordinates(quadratic, frame.facts.whole.centre, constraints, affine, nodes);
-  frame.translations  = frame.rigid_motions.leftCols(3);
-  frame.picture       = skin_picture(quadratic, affine);
+  frame.picture = skin_picture(quadratic, affine);
   if (specification.stress)
     frame.stress = skin_stress(
         quadratic, [&](int cell) -> const Material & { return materials[cell]; }, affine,

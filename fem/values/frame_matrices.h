@@ -89,8 +89,8 @@ struct FrameFacts
   };
   std::vector<SolidMass> parts;
   MassProperties         whole;
-  /// Largest strain energy of the six rigid-body modes of the unsupported frame, relative to the energies that cancel
-  /// in it, summed over the cells: rounding (about 1e-15) unless a cell is wrong; nan if unknown.
+  /// Largest strain energy of the six rigid-body modes away from the supports, relative to the energies that cancel
+  /// in it: rounding (about 1e-15) unless a cell, a coupling or a sum is wrong; nan if unknown.
   double rigid_energy = std::numeric_limits<double>::quiet_NaN();
   /// Names of the rigid-body modes of the supported frame (no elastic energy); see free_motions().
   std::vector<std::string> free_motions;

@@ -93,7 +93,7 @@ std::vector<std::string> frame_text(const ModelFacts &model)
     lines.push_back("mass " + short_text(model.frame_mass, 6) + " kg");
   constexpr double rounding = 1e-11; // of the energies that cancel in a rigid motion
   if (const double share = model.frame.rigid_energy; !std::isnan(share))
-    lines.push_back("rigid motions of the frame without supports cost " + short_text(share, 2) +
+    lines.push_back("rigid motions of the frame away from its supports cost " + short_text(share, 2) +
                     " of the elastic energies that cancel in them" +
                     (share < rounding ? ", which is rounding" : "; it should be rounding: look at the mesh"));
   if (model.free_motions > 0 || !model.frame.free_motions.empty())

@@ -64,10 +64,11 @@ fem::CellMaterials all_of(const fem::QuadraticMesh &mesh)
 struct FreeCells
 {
   explicit FreeCells(const fem::QuadraticMesh &mesh)
-      : materials(all_of(mesh)), affine((fem::MultipointConstraints(mesh.n_nodes()))),
-        C(fem::assemble_stiffness(mesh, materials, affine, fem::whole(mesh, affine))),
-        M(fem::assemble_mass(mesh, materials, affine, fem::whole(mesh, affine)))
+      : materials(all_of(mesh)), affine((fem::MultipointConstraints(mesh.n_nodes())))
   {
+    fem::MatrixSums sums = fem::assemble(mesh, materials, affine, fem::whole(mesh, affine));
+    C                    = std::move(sums.C);
+    M                    = std::move(sums.M);
   }
   fem::CellMaterials     materials;
   fem::AffineConstraints affine;

@@ -1,11 +1,14 @@
 #include "fem/assembly/affine_constraints.h"
 #include "fem/assembly/elasticity.h"
 #include "fem/assembly/rigid_motions.h"
+#include "fem/assembly/supports.h"
 #include "fem/recovery/discretisation.h"
 #include "fem/values/nearest_name.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/statics.h"
 #include "tests/support/test.h"
+
+#include <unsupported/Eigen/KroneckerProduct>
 
 namespace gestell::test
 {
@@ -38,6 +41,46 @@ TEST(Elasticity, MatricesAreSymmetricToTheLastBit)
     const auto frame         = discretise(box_mesh({2, 2, 2}, {1., 1., 1.}, 0.2), specification);
     for (const auto *matrix : {&frame.M, &frame.B, &frame.C})
       EXPECT_EQ((Eigen::MatrixXd(*matrix) - Eigen::MatrixXd(*matrix).transpose()).cwiseAbs().maxCoeff(), 0.);
+  }
+}
+
+TEST(Elasticity, RigidMotionsCostNothingAwayFromSupports)
+{
+  const fem::Mesh mesh  = box_mesh({4, 2, 2}, {2., 1., 1.}, 0.2);
+  auto            clamp = free_steel();
+  clamp.supports        = {clamped("foot", {"x0"})};
+  const double rounding = 1e-14;
+  using Coupling        = fem::InterfaceCoupling;
+  for (const Coupling coupling : {Coupling::average, Coupling::rigid, Coupling::flexible})
+  {
+    clamp.interfaces = {interface("tip", {"x1"}, coupling)};
+    EXPECT_LT(discretise(mesh, clamp).facts.rigid_energy, rounding) << int(coupling);
+  }
+  // One wrong entry is seen where no support holds, not at the support.
+  const fem::QuadraticMesh   quadratic = fem::quadratic_mesh(mesh);
+  const auto                 supports  = fem::find_supports(mesh, quadratic, clamp.supports);
+  fem::MultipointConstraints constraints(quadratic.n_nodes());
+  fem::hold(supports, constraints);
+  const fem::AffineConstraints affine(constraints);
+  const fem::CellMaterials     steel{{clamp.material}, std::vector<int>(mesh.n_cells(), 0)};
+  fem::SparseMatrix            C       = fem::assemble(quadratic, steel, affine, fem::whole(quadratic, affine)).C;
+  const Eigen::MatrixXd        motions = fem::rigid_coordinates(quadratic, {1., 0.5, 0.5}, affine, {});
+  const auto                   share   = [&] { return fem::rigid_energy_share(C, motions, quadratic, affine); };
+  EXPECT_LT(share(), rounding);
+  const auto number_at = [&](double x)
+  {
+    const auto node = std::find_if(quadratic.points.begin(), quadratic.points.end(),
+                                   [&](const fem::Point3 &point) { return std::abs(point[0] - x) < 0.1; });
+    return affine.coordinate(3 * int(node - quadratic.points.begin()));
+  };
+  for (const double x : {0.25, 2.})
+  {
+    const int i = number_at(x);
+    ASSERT_GE(i, 0);
+    const double right = C.coeff(i, i);
+    C.coeffRef(i, i) *= 1. + 1e-6;
+    EXPECT_EQ(share() > 1e-10, x == 2.) << share();
+    C.coeffRef(i, i) = right;
   }
 }
 
@@ -170,16 +213,22 @@ TEST(AffineConstraints, SumCellsAsProjectionsOfTheirSum)
   constraints.tie(6, {{4, 3.}, {2, 0.2}});
   constraints.measures.resize(1);
   const fem::AffineConstraints affine(constraints);
-  const Eigen::MatrixXd        R = Eigen::MatrixXd::Random(9, 9), A = R + R.transpose();
-  const Eigen::MatrixXd        sum = affine.sum(
-             {{1, 2}, {0, 1, 2, 3, 4, 5, 6}}, 3,
-             [](int) {
-        return std::vector<int>{0, 1, 2};
-      },
-             [&](int cell) { return Eigen::MatrixXd(cell * A); });
-  const Eigen::MatrixXd expected = affine.project(3. * A.sparseView());
-  EXPECT_LT((sum - expected).norm(), 1e-14 * expected.norm());
-  EXPECT_EQ((sum - sum.transpose()).norm(), 0.) << "to the last bit";
+  const auto                   symmetric = [](int n) -> Eigen::MatrixXd
+  {
+    const Eigen::MatrixXd R = Eigen::MatrixXd::Random(n, n);
+    return R + R.transpose();
+  };
+  const Eigen::MatrixXd C = symmetric(9), M = symmetric(3),
+                        M_of_u   = Eigen::kroneckerProduct(M, Eigen::Matrix3d::Identity());
+  const auto            nodes    = [](int) { return std::vector<int>{0, 1, 2}; };
+  const auto            matrices = [&](int cell) -> fem::CellMatrices { return {cell * C, cell * M}; };
+  const fem::MatrixSums sums     = affine.sum({{1, 2}, {0, 1, 2, 3, 4, 5, 6}}, nodes, matrices);
+  for (const auto &[sum, of_cells] : {std::pair(&sums.C, &C), std::pair(&sums.M, &M_of_u)})
+  {
+    const Eigen::MatrixXd expected = affine.project(3. * of_cells->sparseView()), found = *sum;
+    EXPECT_LT((found - expected).norm(), 1e-14 * expected.norm());
+    EXPECT_EQ((found - found.transpose()).norm(), 0.) << "to the last bit";
+  }
 }
 
 TEST(AffineConstraints, ThatLeadBackToThemselvesAreRefused)
