@@ -9,10 +9,19 @@ namespace gestell::apps
 namespace
 {
 
-/// Columns by weights, how far the worst is off.
-double worst(const Eigen::MatrixXd &motion, const Eigen::MatrixXd &basis, const Eigen::MatrixXd &weights)
+/// Number of the largest singular vectors that carry every column u_k of the motion within the tolerance:
+/// |u_k|^2 - sum_r lambda_r w_kr^2 is the square of its error, from U^T U = W diag(lambda) W^T, the largest last.
+Eigen::Index rank_for(const Eigen::MatrixXd &gram, const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> &vectors,
+                      double tolerance)
 {
-  return (motion - basis * weights.transpose()).colwise().norm().maxCoeff();
+  Eigen::VectorXd squares = gram.diagonal();
+  Eigen::Index    rank    = 0;
+  while (rank < gram.cols() && (rank == 0 || squares.maxCoeff() > tolerance * tolerance))
+  {
+    const Eigen::Index r = gram.cols() - ++rank;
+    squares -= vectors.eigenvalues()(r) * vectors.eigenvectors().col(r).cwiseAbs2();
+  }
+  return rank;
 }
 
 } // namespace
@@ -22,13 +31,12 @@ ShortMotion short_motion(const Eigen::MatrixXd &motion, double tolerance)
   ShortMotion result;
   if (motion.size() == 0 || motion.colwise().norm().maxCoeff() <= tolerance)
     return result;
-  // U^T U = V S^2 V^T: its right singular vectors, the largest last; U V are the shapes.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(motion.transpose() * motion);
-  Eigen::Index                                         rank = 1;
-  const auto vectors = [&] { return Eigen::MatrixXd(gram.eigenvectors().rightCols(rank)); };
-  while (rank < motion.cols() && worst(motion, motion * vectors(), vectors()) > tolerance)
-    ++rank;
-  const Eigen::MatrixXd weights = vectors(), basis = motion * weights;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(motion.cols(), motion.cols());
+  gram.selfadjointView<Eigen::Lower>().rankUpdate(motion.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> vectors(gram);
+  const Eigen::Index                                   rank    = rank_for(gram, vectors, tolerance);
+  const Eigen::MatrixXd                                weights = vectors.eigenvectors().rightCols(rank);
+  const Eigen::MatrixXd                                basis   = motion * weights;
 
   Eigen::MatrixXf scaled = weights.cast<float>();
   for (Eigen::Index r = 0; r < rank; ++r)

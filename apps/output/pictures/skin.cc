@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <unordered_map>
 
 namespace gestell::apps
@@ -24,36 +23,40 @@ Vector3d normal(const Skin &skin, const std::array<int, 3> &t)
 /// The plane of a face, roughly: where it looks, and its distance from the origin.
 using Plane = std::array<long, 4>;
 
-/// The planes of the faces around every point: one inside a plane, two on an edge, three at a corner.
-std::vector<std::set<Plane>> planes_of(const Skin &skin, double tolerance)
+/// Numbers of the planes of the faces around every point, ascending: one inside a plane, two on an edge, three at a
+/// corner.
+std::vector<std::vector<long>> planes_of(const Skin &skin, double tolerance)
 {
-  std::vector<std::set<Plane>> planes(skin.points.size());
+  std::map<Plane, long>          numbers;
+  std::vector<std::vector<long>> planes(skin.points.size());
   for (const auto &t : skin.triangles)
   {
-    const Vector3d n     = normal(skin, t);
-    const double   level = n.dot(skin.points[t[0]]);
-    const Plane    plane = {std::lround(2. * n[0]), std::lround(2. * n[1]), std::lround(2. * n[2]),
-                            std::lround(level / tolerance)};
+    const Vector3d n      = normal(skin, t);
+    const double   level  = n.dot(skin.points[t[0]]);
+    const Plane    plane  = {std::lround(2. * n[0]), std::lround(2. * n[1]), std::lround(2. * n[2]),
+                             std::lround(level / tolerance)};
+    const long     number = numbers.emplace(plane, long(numbers.size())).first->second;
     for (const int i : t)
-      planes[i].insert(plane);
+      if (auto &own = planes[i]; std::find(own.begin(), own.end(), number) == own.end())
+        own.push_back(number);
   }
+  for (std::vector<long> &own : planes)
+    std::sort(own.begin(), own.end());
   return planes;
 }
 
 /// Group number of every point, in order of first occurrence: one group has one grid cell and the same planes.
 std::vector<int> groups_of(const Skin &skin, double edge)
 {
-  using Key         = std::pair<std::array<long, 3>, std::set<Plane>>;
-  const auto planes = planes_of(skin, 0.25 * edge);
-
-  std::map<Key, int> numbers;
-  std::vector<int>   group;
+  std::vector<std::vector<long>>   keys = planes_of(skin, 0.25 * edge);
+  std::map<std::vector<long>, int> numbers;
+  std::vector<int>                 group;
   group.reserve(skin.points.size());
   for (std::size_t i = 0; i < skin.points.size(); ++i)
   {
     const Vector3d place = skin.points[i] / edge;
-    const Key      key   = {{std::lround(place[0]), std::lround(place[1]), std::lround(place[2])}, planes[i]};
-    group.push_back(numbers.emplace(key, static_cast<int>(numbers.size())).first->second);
+    keys[i].insert(keys[i].begin(), {std::lround(place[0]), std::lround(place[1]), std::lround(place[2])});
+    group.push_back(numbers.emplace(std::move(keys[i]), static_cast<int>(numbers.size())).first->second);
   }
   return group;
 }

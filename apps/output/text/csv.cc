@@ -2,6 +2,8 @@
 
 #include "fem/values/number_text.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 
 namespace gestell::apps
@@ -19,13 +21,15 @@ std::string csv_field(const std::string &text)
 
 void CsvTable::add_rows(const std::vector<double> &numbers)
 {
-  const std::size_t width = columns_;
-  text_.reserve(text_.size() + 20 * numbers.size()); // 17 digits, sign, point, separator
-  for (std::size_t i = 0; width > 0 && i + width <= numbers.size(); i += width)
+  constexpr std::size_t longest = 25; // "-1.2345678901234567e-123,"
+  const std::size_t     n       = columns_ > 0 ? numbers.size() / columns_ * columns_ : 0;
+  text_.reserve(text_.size() + longest * n);
+  std::array<char, longest> field;
+  for (std::size_t i = 0; i < n; ++i)
   {
-    for (std::size_t j = 0; j < width; ++j)
-      number(numbers[i + j]);
-    text_.back() = '\n';
+    char *const end = std::to_chars(field.data(), field.data() + field.size(), numbers[i]).ptr;
+    *end            = (i + 1) % columns_ == 0 ? '\n' : ',';
+    text_.append(field.data(), end + 1);
   }
 }
 
