@@ -6,7 +6,10 @@
 #include "apps/output/report/report.h"
 #include "apps/output/report/section.h"
 #include "apps/output/tables/summary_json.h"
+#include "apps/output/text/csv.h"
+#include "apps/output/text/number_rows.h"
 #include "apps/session/phase_times.h"
+#include "coupling/frame/atomic_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -57,14 +60,34 @@ bool is_full(const std::error_code &error)
          error == std::error_code(EDQUOT, std::generic_category());
 }
 
-/// Writes files of one function each, if the result has data for them.
+const char *const history = "history.csv";
+
+/// The longest table, in pieces: as a text it would take as much memory as the file.
+void write_history(Writing &writing, const coupling::RunResult &run)
+{
+  if (run.columns.empty())
+    return;
+  writing.together(
+      [&](OwnFolder &folder, std::vector<std::string> &names)
+      {
+        names.push_back(history);
+        coupling::AtomicFile file(folder.claim(history).string());
+        file.stream() << std::string(CsvTable(heads_of(run.columns, run.units)));
+        write_number_rows(run.rows, run.columns.size(),
+                          [&](const char *piece, std::size_t length)
+                          { file.stream().write(piece, std::streamsize(length)); });
+        file.finish();
+      });
+}
+
+/// Writes files of one function each, if the result has data for them; not the history.
 /// @param folder  a Writing or an OwnFolder
 template <typename Folder>
 void write_tables(Folder &folder, const Result &result)
 {
   for (const ResultFile &file : result_files())
   {
-    if (const std::string content = file.content ? file.content(result) : ""; !content.empty())
+    if (const std::string content = file.content && file.name != history ? file.content(result) : ""; !content.empty())
       folder.write(file.name, content);
     if (file.several)
       for (const auto &[name, content] : file.several(result))
@@ -89,6 +112,8 @@ void write_all(const Result &result, Writing &writing)
     with_warnings.warnings.push_back(warning);
   phases.begin("tables");
   writing.keep_room(complete, summary_json(with_warnings).size() + for_warnings);
+  if (result.run)
+    write_history(writing, *result.run);
   write_tables(writing, result);
   phases.begin("report");
   write_report(writing, with_warnings);

@@ -125,12 +125,12 @@ std::optional<Spectra> spectra(const coupling::RunResult &run, double from)
     return std::nullopt;
   const SpectrumWindow window = window_of(rows);
   Spectra              result;
-  result.begin            = window.begin;
-  result.end              = window.t(window.n);
-  result.samples          = static_cast<int>(window.n);
-  result.resolution_hz    = 1. / (result.end - result.begin);
-  result.row_step         = window.row_step;
-  result.carried_hz       = (window.on_rows ? 0.5 : 0.25) / window.row_step;
+  result.begin         = window.begin;
+  result.end           = window.t(window.n);
+  result.samples       = static_cast<int>(window.n);
+  result.resolution_hz = 1. / (result.end - result.begin);
+  result.row_step      = window.row_step;
+  result.carried_hz    = (window.on_rows ? 0.5 : 0.25) / window.row_step;
   HannSpectrum      spectrum(window.n);
   const std::size_t lines = std::min(most_lines, window.on_rows ? window.n / 2 : window.n / 4);
   for (const std::size_t j : chosen_columns(run))

@@ -218,6 +218,8 @@ std::string marker(const Curve &curve, double x, double y, bool hollow)
 /// Whether one of the segments at point i is inside the window, or at least not entirely on one side of it.
 bool is_near(const Chart &chart, const Curve &curve, std::size_t i)
 {
+  if (chart.x.shows(curve.x[i]))
+    return true;
   const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, curve.x.size() - 1);
   const auto        all = [&](const auto &is_beside)
   { return is_beside(curve.x[before]) && is_beside(curve.x[i]) && is_beside(curve.x[after]); };
@@ -244,8 +246,9 @@ std::string line_path(const Chart &chart, const Curve &curve, const Area &area)
     }
     const double column = std::floor(area.x.at(curve.x[i]));
     std::size_t  last = i, low = i, high = i;
-    for (std::size_t k = i;
-         k < curve.x.size() && drawn(k) && (k == i || is_long) && std::floor(area.x.at(curve.x[k])) == column; ++k)
+    const auto   in_column = [&](double x) { return x >= column && x < column + 1.; };
+    for (std::size_t k = i; k < curve.x.size() && drawn(k) && (k == i || is_long) && in_column(area.x.at(curve.x[k]));
+         ++k)
     {
       last = k;
       low  = curve.y[k] < curve.y[low] ? k : low;

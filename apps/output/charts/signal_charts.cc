@@ -141,8 +141,7 @@ std::pair<double, double> hardest_change(const SignalColumns &columns, std::size
 bool is_shaken(const SignalColumns &columns, const SignalGroup &group)
 {
   return std::any_of(group.columns.begin(), group.columns.end(),
-                     [&](std::size_t j)
-                     { return hardest_change(columns, j).second > columns.ranges[j].span() / 3.; });
+                     [&](std::size_t j) { return hardest_change(columns, j).second > columns.ranges[j].span() / 3.; });
 }
 
 std::vector<SignalGroup> groups_of(const coupling::RunResult &run, const SignalColumns &columns)

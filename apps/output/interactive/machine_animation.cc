@@ -13,12 +13,19 @@ namespace gestell::apps
 namespace
 {
 
+/// The number of triangles falls with a power of the edge; each step takes that of the one before, at first the square
+/// that holds for planes.
 CoarseMesh coarse(const Skin &skin, std::size_t most)
 {
-  double     edge = skin.size() / 150.;
+  double     edge = skin.size() / 150., inverse_power = 0.5;
   CoarseMesh mesh = coarse_mesh(skin, edge);
-  while (mesh.triangles.size() > most) // their number falls with the square of the edge, at first more slowly
-    mesh = coarse_mesh(skin, edge *= std::max(1.15, std::sqrt(double(mesh.triangles.size()) / double(most))));
+  while (mesh.triangles.size() > most)
+  {
+    const double n      = double(mesh.triangles.size()),
+                 factor = std::clamp(std::pow(n / double(most), inverse_power), 1.15, 2.);
+    mesh                = coarse_mesh(skin, edge *= factor);
+    inverse_power       = std::log(factor) / std::log(n / double(mesh.triangles.size()));
+  }
   return mesh;
 }
 

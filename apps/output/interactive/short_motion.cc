@@ -1,6 +1,6 @@
 #include "apps/output/interactive/short_motion.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <cmath>
 
@@ -9,20 +9,30 @@ namespace gestell::apps
 namespace
 {
 
-/// Number of the largest singular vectors that carry every column u_k of the motion within the tolerance:
-/// |u_k|^2 - sum_r lambda_r w_kr^2 is the square of its error, from U^T U = W diag(lambda) W^T, the largest last.
-Eigen::Index rank_for(const Eigen::MatrixXd &gram, const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> &vectors,
-                      double tolerance)
+/// Instants whose columns U_p span all others within the tolerance, and the factor L [instants x p] of
+///
+///     U^T U = L L^T + R,    diag(R)_k <= tolerance^2,    U = U_p L_p^-T L^T up to the root of diag(R)_k in column k:
+///
+/// Cholesky's factorisation that takes the instant with the largest rest next and ends when all are small.
+struct SpanningInstants
 {
-  Eigen::VectorXd squares = gram.diagonal();
-  Eigen::Index    rank    = 0;
-  while (rank < gram.cols() && (rank == 0 || squares.maxCoeff() > tolerance * tolerance))
+  std::vector<Eigen::Index> taken;
+  Eigen::MatrixXd           factor;
+
+  SpanningInstants(const Eigen::MatrixXd &gram, double tolerance) : factor(gram.rows(), 0)
   {
-    const Eigen::Index r = gram.cols() - ++rank;
-    squares -= vectors.eigenvalues()(r) * vectors.eigenvectors().col(r).cwiseAbs2();
+    Eigen::VectorXd rest = gram.diagonal();
+    Eigen::Index    next = 0;
+    while (rest.maxCoeff(&next) > tolerance * tolerance && factor.cols() < gram.cols())
+    {
+      const Eigen::VectorXd column = (gram.col(next) - factor * factor.row(next).transpose()) / std::sqrt(rest(next));
+      taken.push_back(next);
+      factor.conservativeResize(Eigen::NoChange, factor.cols() + 1);
+      factor.rightCols<1>() = column;
+      rest -= column.cwiseAbs2();
+    }
   }
-  return rank;
-}
+};
 
 } // namespace
 
@@ -31,12 +41,17 @@ ShortMotion short_motion(const Eigen::MatrixXd &motion, double tolerance)
   ShortMotion result;
   if (motion.size() == 0 || motion.colwise().norm().maxCoeff() <= tolerance)
     return result;
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(motion.cols(), motion.cols());
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(motion.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> vectors(gram);
-  const Eigen::Index                                   rank    = rank_for(gram, vectors, tolerance);
-  const Eigen::MatrixXd                                weights = vectors.eigenvectors().rightCols(rank);
-  const Eigen::MatrixXd                                basis   = motion * weights;
+  const Eigen::MatrixXd  gram = motion.transpose() * motion;
+  const SpanningInstants spanning(gram, tolerance);
+  const Eigen::MatrixXd &weights = spanning.factor;
+  const auto             rank    = weights.cols();
+  Eigen::MatrixXd        basis(motion.rows(), rank), corner(rank, rank);
+  for (Eigen::Index r = 0; r < rank; ++r)
+  {
+    basis.col(r)  = motion.col(spanning.taken[std::size_t(r)]);
+    corner.row(r) = weights.row(spanning.taken[std::size_t(r)]);
+  }
+  corner.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(basis);
 
   Eigen::MatrixXf scaled = weights.cast<float>();
   for (Eigen::Index r = 0; r < rank; ++r)

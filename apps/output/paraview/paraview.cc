@@ -242,6 +242,12 @@ std::vector<Eigen::Vector3d> body_velocities(const Scenery &scenery, const Eigen
   return velocities;
 }
 
+/// @param u  [3 points]
+double largest_point(const Eigen::VectorXd &u)
+{
+  return u.size() > 0 ? Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3).colwise().norm().maxCoeff() : 0.;
+}
+
 void write_frame_modes(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
   FrameSurface frame(result.scenery);
@@ -252,9 +258,7 @@ void write_frame_modes(OwnFolder &folder, const Result &result, std::vector<std:
   for (std::size_t j = 0; j < result.frame_modes.size(); ++j)
   {
     Eigen::VectorXd u       = frame.displacement(result.frame_modes[j].shape);
-    double          largest = 0.;
-    for (long i = 0; i < u.size(); i += 3)
-      largest = std::max(largest, u.segment<3>(i).norm());
+    const double    largest = largest_point(u);
     if (largest > 0.)
       u *= shown_size * (frame.size() > 0. ? frame.size() : 1.) / largest;
     frame.note("frequency [Hz]", result.frame_modes[j].frequency_hz);
@@ -267,9 +271,13 @@ void write_frame_modes(OwnFolder &folder, const Result &result, std::vector<std:
   folder.write("frame_modes.pvd", collection.document());
 }
 
-Eigen::VectorXd values_of(const std::vector<Eigen::Vector3d> &points)
+double largest_of(const std::vector<std::vector<Eigen::Vector3d>> &shapes)
 {
-  return Eigen::Map<const Eigen::VectorXd>(points.front().data(), 3 * static_cast<Eigen::Index>(points.size()));
+  double largest = 0.;
+  for (const auto &shape : shapes)
+    for (const Eigen::Vector3d &u : shape)
+      largest = std::max(largest, u.norm());
+  return largest;
 }
 
 /// Frame and mechanism together, as write_frame_modes() writes the frame.
@@ -278,15 +286,19 @@ void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<st
   if (result.coupled_modes.empty() || result.modes_at.size() == 0 ||
       (result.scenery.bodies.empty() && result.scenery.n_frame == 0))
     return;
-  FrameSurface frame(result.scenery);
-  Collection   collection;
+  FrameSurface       frame(result.scenery);
+  Collection         collection;
+  std::vector<Shape> shapes = mechanism_shapes(result.scenery, result.modes_at);
+  const double       size   = shown_size * machine_state(result.scenery, result.modes_at).size();
   for (std::size_t j = 0; j < result.coupled_modes.size(); ++j)
   {
-    const coupling::Mode &mode  = result.coupled_modes[j];
-    MachineState          state = mode_state(result.scenery, result.modes_at, mode.shape);
-    const double          times = mode_enlargement(state);
-    int                   part  = 0;
-    const auto            file  = [&](const char *stem)
+    const coupling::Mode &mode    = result.coupled_modes[j];
+    const Eigen::VectorXd u       = frame.displacement(mode.shape);
+    const auto            bodies  = body_mode(result.scenery, result.modes_at, mode.shape);
+    const double          largest = std::max(result.scenery.has_skin() ? largest_point(u) : 0., largest_of(bodies));
+    const double          times   = largest > 0. ? size / largest : size;
+    int                   part    = 0;
+    const auto            file    = [&](const char *stem)
     {
       names.push_back(numbered(std::string("coupled_modes/") + stem, j + 1));
       collection.add(static_cast<double>(j + 1), part++, names.back());
@@ -294,13 +306,12 @@ void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<st
     };
     frame.note("frequency [Hz]", mode.frequency_hz);
     if (!frame.empty())
-      frame.write(file("frame_"), times * (state.skin.points.empty() ? state.scale * Eigen::VectorXd(state.scale * frame.displacement(mode.shape))
-                                                                     : values_of(state.skin.displacement)));
-    for (Shape &shape : state.shapes)
-      for (Eigen::Vector3d &u : shape.displacement)
-        u *= times;
-    if (!state.shapes.empty())
-      write_mechanism(file("mechanism_"), state.shapes);
+      frame.write(file("frame_"), times * u);
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      for (std::size_t p = 0; p < bodies[i].size(); ++p)
+        shapes[i].displacement[p] = times * bodies[i][p];
+    if (!shapes.empty())
+      write_mechanism(file("mechanism_"), shapes);
   }
   names.push_back("coupled_modes.pvd");
   folder.write("coupled_modes.pvd", collection.document());
@@ -309,10 +320,10 @@ void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<st
 /// View of the main peak or, if there is none, of the start of the motion.
 ViewMacro macro_of(const Result &result, const std::vector<std::size_t> &pictures)
 {
-  const coupling::RunResult &run   = *result.run;
-  const auto                 early = [&](std::size_t k) { return result.peak && run.picture_times[k] < result.peak->t; };
-  const std::size_t          k     = *std::partition_point(pictures.begin(), pictures.end() - 1, early);
-  const MachineState state = machine_state(result.scenery, run.picture_states[k]);
+  const coupling::RunResult &run = *result.run;
+  const auto         early       = [&](std::size_t k) { return result.peak && run.picture_times[k] < result.peak->t; };
+  const std::size_t  k           = *std::partition_point(pictures.begin(), pictures.end() - 1, early);
+  const MachineState state       = machine_state(result.scenery, run.picture_states[k]);
   ViewMacro          view;
   view.time        = run.picture_times[k];
   view.size        = state.size();
@@ -344,7 +355,7 @@ void write_motion(OwnFolder &folder, const Result &result, std::vector<std::stri
   const coupling::RunResult &run = *result.run;
   FrameSurface               frame(result.scenery);
 
-  Collection collection;
+  Collection                     collection;
   const std::vector<std::size_t> pictures = pictures_of_motion(result, frame);
   std::size_t                    number   = 0;
   for (const std::size_t k : pictures)

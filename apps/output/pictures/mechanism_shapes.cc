@@ -283,9 +283,9 @@ std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorX
 {
   using coupling::BodyKind;
   // Rotors, sliders and rods have sizes of their own: that of the machine is not needed for them.
-  const bool   sizes_follow = !scenery.bars.empty() || !scenery.pins.empty() ||
+  const bool sizes_follow = !scenery.bars.empty() || !scenery.pins.empty() ||
                             std::any_of(scenery.bodies.begin(), scenery.bodies.end(), is_free);
-  const double size         = sizes_follow ? scenery.size() : 0.;
+  const double       size = sizes_follow ? scenery.size() : 0.;
   const Split        split(scenery, q);
   const Roundness    roundness(scenery.bodies.size() + scenery.bars.size());
   int                n_free = 0;

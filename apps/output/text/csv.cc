@@ -1,9 +1,8 @@
 #include "apps/output/text/csv.h"
 
+#include "apps/output/text/number_rows.h"
 #include "fem/values/number_text.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 
 namespace gestell::apps
@@ -21,16 +20,7 @@ std::string csv_field(const std::string &text)
 
 void CsvTable::add_rows(const std::vector<double> &numbers)
 {
-  constexpr std::size_t longest = 25; // "-1.2345678901234567e-123,"
-  const std::size_t     n       = columns_ > 0 ? numbers.size() / columns_ * columns_ : 0;
-  text_.reserve(text_.size() + longest * n);
-  std::array<char, longest> field;
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    char *const end = std::to_chars(field.data(), field.data() + field.size(), numbers[i]).ptr;
-    *end            = (i + 1) % columns_ == 0 ? '\n' : ',';
-    text_.append(field.data(), end + 1);
-  }
+  write_number_rows(numbers, columns_, [this](const char *piece, std::size_t length) { text_.append(piece, length); });
 }
 
 void CsvTable::number(double x)

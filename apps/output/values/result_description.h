@@ -128,8 +128,8 @@ void describe(Visitor &v, const Result &x)
 {
   // A result without a run has no signals, but has all members, so that readers need no case distinction.
   static const coupling::RunResult none;
-  const coupling::RunResult       &run         = x.run ? *x.run : none;
-  const auto                       frequencies = [](const std::vector<coupling::Mode> &modes, double coupling::Mode::*of)
+  const coupling::RunResult       &run = x.run ? *x.run : none;
+  const auto frequencies               = [](const std::vector<coupling::Mode> &modes, double coupling::Mode::*of)
   {
     std::vector<double> f;
     for (const coupling::Mode &mode : modes)
