@@ -51,13 +51,17 @@ void for_each_point(const Chart &chart, const Use &use)
           use(curve.x[i], curve.y[i]);
 }
 
-/// The chart with both limits of both axes; limits of the ordinate follow from the values inside those of the abscissa.
-Chart with_axes(Chart chart)
+/// The chart without its panels, with both limits of both axes; limits of the ordinate follow from the values inside
+/// those of the abscissa.
+Chart with_axes(const Chart &described)
 {
+  Chart chart{described.title,   described.note,         described.x,      described.y,     {},
+              described.marks,   described.levels,       described.shades, described.width, described.height,
+              described.columns, described.legend_column};
   Range x, y;
-  for_each_point(chart, [&](double value, double) { x.add(value); });
+  for_each_point(described, [&](double value, double) { x.add(value); });
   chart.x = fitted(chart.x, x.low, x.high, 0.);
-  for_each_point(chart,
+  for_each_point(described,
                  [&](double at, double value)
                  {
                    if (chart.x.shows(at))
@@ -408,8 +412,8 @@ std::string chart_svg(const Chart &described)
                                     std::to_string(curve.y.size()) + " values; give one value per abscissa.");
 
   const Chart   chart   = with_axes(described);
-  const Heights heights = heights_of(chart);
-  const int     n = static_cast<int>(chart.panels.size()), columns = std::min(chart.columns, n);
+  const Heights heights = heights_of(described);
+  const int     n = static_cast<int>(described.panels.size()), columns = std::min(chart.columns, n);
   const int     rows  = (n + columns - 1) / columns;
   const double  head  = title_height + (chart.note.empty() ? 0. : note_height);
   const double  width = chart.width + chart.legend_column, height = heights.above() + chart.height;
@@ -417,7 +421,7 @@ std::string chart_svg(const Chart &described)
   std::string svg = svg_head(columns * width, head + rows * height, chart.title) +
                     svg_text(left_margin, 19., chart.title, "title") + svg_text(left_margin, 37., chart.note, "small");
   for (int i = 0; i < n; ++i)
-    svg += panel_svg(chart, chart.panels[i], heights, (i % columns) * width, head + (i / columns) * height);
+    svg += panel_svg(chart, described.panels[i], heights, (i % columns) * width, head + (i / columns) * height);
   return svg + "</svg>\n";
 }
 

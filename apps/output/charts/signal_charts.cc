@@ -232,12 +232,20 @@ std::vector<SignalChart> signal_charts(const coupling::RunResult &run)
     std::string name  = file_name(quantity_of(group.unit));
     if (const int n = ++used[name]; n > 1)
       name += "-" + std::to_string(n);
-    charts.push_back({name, chart_svg(chart), topic_of(group.unit), chart});
-    if (topic_of(group.unit) != ChartTopic::force || !(shock.second > shock.first) || !is_shaken(columns, group))
-      continue;
-    chart.title += ", around the main shock";
-    std::tie(chart.x.begin, chart.x.end) = shock;
-    charts.push_back({name + "-shock", chart_svg(chart), ChartTopic::force, chart, true});
+    const auto add = [&](const std::string &as, Chart shown, bool is_part)
+    {
+      std::string svg = chart_svg(shown);
+      charts.push_back({as, std::move(svg), topic_of(group.unit), std::move(shown), is_part});
+    };
+    if (topic_of(group.unit) == ChartTopic::force && shock.second > shock.first && is_shaken(columns, group))
+    {
+      add(name, chart, false);
+      chart.title += ", around the main shock";
+      std::tie(chart.x.begin, chart.x.end) = shock;
+      name += "-shock";
+    }
+    const bool is_part = !std::isnan(chart.x.begin);
+    add(name, std::move(chart), is_part);
   }
   return charts;
 }

@@ -13,16 +13,26 @@ namespace gestell::apps
 namespace
 {
 
-/// The number of triangles falls with a power of the edge; each step takes that of the one before, at first the square
-/// that holds for planes.
+double area(const Skin &skin)
+{
+  double sum = 0.;
+  for (const auto &[a, b, c] : skin.triangles)
+    sum += 0.5 * (skin.points[b] - skin.points[a]).cross(skin.points[c] - skin.points[a]).norm();
+  return sum;
+}
+
+/// A plane has two triangles in each cell of the grid, an edge more: a skin with too many begins there.  Their number
+/// falls with a power of the cell's edge; each step takes that of the one before, at first the square of planes.
 CoarseMesh coarse(const Skin &skin, std::size_t most)
 {
-  double     edge = skin.size() / 150., inverse_power = 0.5;
+  double edge = skin.size() / 150., inverse_power = 0.5;
+  if (skin.triangles.size() > most)
+    edge = std::max(edge, std::sqrt(2. * area(skin) / double(most)));
   CoarseMesh mesh = coarse_mesh(skin, edge);
   while (mesh.triangles.size() > most)
   {
-    const double n      = double(mesh.triangles.size()),
-                 factor = std::clamp(std::pow(n / double(most), inverse_power), 1.15, 2.);
+    const double n      = double(mesh.triangles.size());
+    const double factor = std::clamp(std::pow(n / double(most), inverse_power), 1.15, 2.);
     mesh                = coarse_mesh(skin, edge *= factor);
     inverse_power       = std::log(factor) / std::log(n / double(mesh.triangles.size()));
   }

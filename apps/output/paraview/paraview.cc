@@ -280,10 +280,10 @@ double largest_of(const std::vector<std::vector<Eigen::Vector3d>> &shapes)
   return largest;
 }
 
-/// Frame and mechanism together, as write_frame_modes() writes the frame.
+/// Frame and mechanism together, as write_frame_modes() writes the frame; not for a run, whose page shows them.
 void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
-  if (result.coupled_modes.empty() || result.modes_at.size() == 0 ||
+  if (result.run || result.coupled_modes.empty() || result.modes_at.size() == 0 ||
       (result.scenery.bodies.empty() && result.scenery.n_frame == 0))
     return;
   FrameSurface       frame(result.scenery);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/paraview/surface_document.h"
 #include "apps/output/text/write_file.h"
 #include "fem/values/number_text.h"
 
@@ -11,7 +12,6 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkXMLPolyDataWriter.h>
 
 #include <Eigen/Core>
 
@@ -93,20 +93,7 @@ struct Surface
     poly->SetVerts(cells);
   }
 
-  void write(const std::filesystem::path &path)
-  {
-    displacement->Modified();
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->WriteToOutputStringOn(); // on a full disk VTK leaves a truncated file and does not always report an error
-    writer->SetInputData(poly);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    // Displacements are noise to a compressor: LZ4 saves 6 % of a skin's file and takes as long as all the rest.
-    writer->SetCompressorTypeToNone();
-    if (writer->Write() == 0)
-      throw std::runtime_error(path.string() + ": VTK cannot make this file");
-    write_file(path, writer->GetOutputString());
-  }
+  void write(const std::filesystem::path &path) { write_file(path, surface_document(*poly)); }
 };
 
 /// A .pvd file: a collection of data sets with their time and part.
