@@ -144,6 +144,9 @@ TEST_F(ParaviewFiles, CoupledModesMoveFrameAndBodiesTogetherTheLargestByATwentie
   result.modes_at = result.run->picture_states.front();
   result.coupled_modes.front().shape << 2e-2, 0., 0., 1e-2; // the top sways twice as far as the slide slides
   write_paraview(folder, result, names);
+  EXPECT_FALSE(fs::exists(folder / "coupled_modes.pvd")); // of a run: its page shows them
+  result.run.reset();
+  write_paraview(folder, result, names);
   const auto sets = data_sets("coupled_modes.pvd");
   ASSERT_EQ(sets.size(), 2u);
   const auto largest = [](vtkPolyData *part)
@@ -196,13 +199,13 @@ TEST_F(ParaviewFiles, VelocitiesAreThoseOfThePointsOfFrameAndBodies)
 /// More on request: `output.allow_large`.
 TEST_F(ParaviewFiles, MotionIsAHundredPicturesUnlessLargeResultsAreAllowed)
 {
-  Result               result = example_result();
-  coupling::RunResult &run    = *result.run;
+  Result                        result = example_result();
+  gestell::coupling::RunResult &run    = *result.run;
   run.picture_times.clear();
   for (int k = 0; k < 250; ++k)
     run.picture_times.push_back(1e-3 * k);
   run.picture_states.assign(250, run.picture_states.front());
-  result.requested.run = coupling::RunOptions();
+  result.requested.run = gestell::coupling::RunOptions();
   write_paraview(folder, result, names);
   const auto sets = data_sets("motion.pvd");
   ASSERT_EQ(sets.size(), 200u); // frame and mechanism
@@ -218,8 +221,8 @@ TEST_F(ParaviewFiles, MotionIsAHundredPicturesUnlessLargeResultsAreAllowed)
 /// A skin of 40 000 points, as of a large frame: a picture takes 2 MB.
 TEST_F(ParaviewFiles, MotionOfALargeFrameTakesAtMost20Megabytes)
 {
-  Result               result = example_result();
-  coupling::RunResult &run    = *result.run;
+  Result                        result = example_result();
+  gestell::coupling::RunResult &run    = *result.run;
   result.frame_modes.clear();
   result.scenery.points.assign(40000, {0., 0., 0.});
   result.scenery.triangles.assign(40000, {0, 1, 2});
