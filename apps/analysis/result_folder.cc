@@ -6,9 +6,14 @@
 #include "apps/output/report/report.h"
 #include "apps/output/report/section.h"
 #include "apps/output/tables/summary_json.h"
+#include "apps/output/text/csv.h"
+#include "apps/output/text/number_rows.h"
+#include "apps/session/phase_times.h"
+#include "coupling/frame/atomic_file.h"
 
 #include <algorithm>
 #include <cerrno>
+#include <set>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -55,37 +60,81 @@ bool is_full(const std::error_code &error)
          error == std::error_code(EDQUOT, std::generic_category());
 }
 
-/// Writes files of one function each, if the result has data for them.
-template <typename Write>
-void write_tables(const Write &write, const Result &result)
+const char *const history = "history.csv";
+
+/// The longest table, in pieces: as a text it would take as much memory as the file.
+void write_history(Writing &writing, const coupling::RunResult &run)
+{
+  if (run.columns.empty())
+    return;
+  writing.together(
+      [&](OwnFolder &folder, std::vector<std::string> &names)
+      {
+        names.push_back(history);
+        coupling::AtomicFile file(folder.claim(history).string());
+        file.stream() << std::string(CsvTable(heads_of(run.columns, run.units)));
+        write_number_rows(run.rows, run.columns.size(),
+                          [&](const char *piece, std::size_t length)
+                          { file.stream().write(piece, std::streamsize(length)); });
+        file.finish();
+      });
+}
+
+/// Writes files of one function each, if the result has data for them; not the history.
+/// @param folder  a Writing or an OwnFolder
+template <typename Folder>
+void write_tables(Folder &folder, const Result &result)
 {
   for (const ResultFile &file : result_files())
   {
-    if (const std::string content = file.content ? file.content(result) : ""; !content.empty())
-      write(file.name, content);
+    if (const std::string content = file.content && file.name != history ? file.content(result) : ""; !content.empty())
+      folder.write(file.name, content);
     if (file.several)
       for (const auto &[name, content] : file.several(result))
-        write(name, content);
+        folder.write(name, content);
   }
+}
+
+void write_report(Writing &writing, const Result &result)
+{
+  const Report report = make_report(result);
+  writing.write("report.html", report.html);
+  for (const auto &[name, svg] : report.charts)
+    writing.write("charts/" + name + ".svg", svg);
 }
 
 void write_all(const Result &result, Writing &writing)
 {
   constexpr std::size_t for_warnings  = 16384; // each is written twice
   Result                with_warnings = result;
+  PhaseTimes            phases;
   if (const std::string warning = lacks_for_paraview(); !warning.empty())
     with_warnings.warnings.push_back(warning);
+  phases.begin("tables");
   writing.keep_room(complete, summary_json(with_warnings).size() + for_warnings);
-  write_tables([&](const std::string &name, const std::string &content) { writing.write(name, content); }, result);
-  const Report report = make_report(with_warnings);
-  writing.write("report.html", report.html);
-  for (const auto &[name, svg] : report.charts)
-    writing.write("charts/" + name + ".svg", svg);
+  if (result.run)
+    write_history(writing, *result.run);
+  write_tables(writing, result);
+  phases.begin("report");
+  write_report(writing, with_warnings);
+  phases.begin("ParaView files");
   for (const auto &series : paraview_series())
     writing.together([&](OwnFolder &folder, std::vector<std::string> &names) { series(folder, result, names); });
+  phases.end();
   with_warnings.warnings.insert(with_warnings.warnings.end(), writing.failures().begin(), writing.failures().end());
+  with_warnings.wall_s.insert(with_warnings.wall_s.end(), phases.seconds().begin(), phases.seconds().end());
   writing.give_room_back();
   writing.write(complete, summary_json(with_warnings));
+}
+
+/// Names without folders of files and of those that they link to.
+std::set<fs::path> file_names(const std::vector<fs::path> &files)
+{
+  std::set<fs::path> names;
+  std::error_code    none;
+  for (const fs::path &file : files)
+    names.insert({file.filename(), fs::weakly_canonical(file, none).filename()});
+  return names;
 }
 
 } // namespace
@@ -142,7 +191,10 @@ void prepare_folder(const fs::path &folder, const std::vector<fs::path> &inputs)
   try
   {
     own.remove(complete);
-    own.remove_all([&](const std::string &name) { return is_result(name) && !own.is_any_of(name, inputs); });
+    const std::set<fs::path> kept = file_names(inputs);
+    own.remove_all(
+        [&](const std::string &name)
+        { return is_result(name) && !(kept.count(fs::path(name).filename()) > 0 && own.is_any_of(name, inputs)); });
   }
   catch (const fs::filesystem_error &problem)
   {
@@ -159,8 +211,7 @@ void write_modes(const fs::path &folder, const Result &result)
 {
   OwnFolder                own(folder);
   std::vector<std::string> names;
-  write_tables([&](const std::string &name, const std::string &content) { own.write(name, content); },
-               result); // without a run no history
+  write_tables(own, result); // without a run no history
   for (const auto &series : paraview_series())
     series(own, result, names);
   Pictures pictures;

@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -118,10 +119,13 @@ void write_answer(const std::filesystem::path &folder, const Result &result, con
 
 int run_scene(const CommonOptions &options, const CheckpointRequest &requested, const Analyses &more)
 {
+  const double before = double(std::clock()) / CLOCKS_PER_SEC; // [s] CPU time: no clock tells the wall time of loading
   ProgressLine progress(options.quiet);
   if (!(requested.every >= 0.) || !std::isfinite(requested.every))
     throw std::invalid_argument("--checkpoint: needs a plain number of seconds, zero or above, got " +
                                 std::to_string(requested.every));
+  PhaseTimes phases;
+  phases.begin("scene");
   const auto on_progress = nothing_to_save_before("integration", progress.callback());
   Session    session(options.input, options.overrides, options.scripts, {on_progress, &interruption()});
   session.check_run();
@@ -132,10 +136,16 @@ int run_scene(const CommonOptions &options, const CheckpointRequest &requested, 
   session.keep_swings();
   const std::string trajectory_for = needs_trajectory(more, session.scene());
   keep_checkpoints(requested, folder, session, trajectory_for);
+  phases.end();
   Result result = run_with(more, session);
+  result.wall_s.insert(result.wall_s.begin(), {{"program", before}, phases.seconds().front()});
+  phases.begin("analyses");
   add_story(session, result);
   const AnalysisOutcome outcome = add_answers(more, session, result);
+  phases.begin("earlier results");
   prepare_folder(folder, inputs);
+  phases.end();
+  result.wall_s.insert(result.wall_s.end(), phases.seconds().begin() + 1, phases.seconds().end());
   progress.done();
   write_answer(folder, result, trajectory_for.empty() ? resuming(options, folder) : "");
   if (!result.run->interrupted)

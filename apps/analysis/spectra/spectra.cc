@@ -3,11 +3,9 @@
 #include "apps/session/history_rows.h"
 #include "fem/values/two_pi.h"
 
-#include <unsupported/Eigen/FFT>
-
 #include <algorithm>
 #include <cmath>
-#include <complex>
+#include <numeric>
 
 namespace gestell::apps
 {
@@ -98,26 +96,23 @@ std::vector<std::size_t> chosen_columns(const coupling::RunResult &run)
 
 } // namespace
 
-std::vector<double> hann_amplitudes(std::vector<double> samples)
+HannSpectrum::HannSpectrum(std::size_t n) : window_(n)
 {
-  const std::size_t   n = samples.size();
-  std::vector<double> window(n);
-  double              sum = 0., mean = 0.;
   for (std::size_t j = 0; j < n; ++j)
-  {
-    window[j] = 0.5 - 0.5 * std::cos(two_pi * static_cast<double>(j) / static_cast<double>(n));
-    sum += window[j];
-    mean += window[j] * samples[j];
-  }
-  mean /= sum;
+    window_[j] = 0.5 - 0.5 * std::cos(two_pi * static_cast<double>(j) / static_cast<double>(n));
+  sum_ = std::accumulate(window_.begin(), window_.end(), 0.);
+}
+
+std::vector<double> HannSpectrum::amplitudes(std::vector<double> samples)
+{
+  const std::size_t n    = samples.size();
+  const double      mean = std::inner_product(window_.begin(), window_.end(), samples.begin(), 0.) / sum_;
   for (std::size_t j = 0; j < n; ++j)
-    samples[j] = window[j] * (samples[j] - mean);
-  std::vector<std::complex<double>> lines;
-  Eigen::FFT<double>                transform;
-  transform.fwd(lines, samples);
+    samples[j] = window_[j] * (samples[j] - mean);
+  transform_.fwd(lines_, samples);
   std::vector<double> amplitudes;
-  for (std::size_t k = 0; k <= n / 2; ++k)
-    amplitudes.push_back((2 * k == n ? 1. : 2.) / sum * std::abs(lines[k])); // half the rate is its own mirror image
+  for (std::size_t k = 0; k <= n / 2; ++k) // half the rate is its own mirror image
+    amplitudes.push_back((2 * k == n ? 1. : 2.) / sum_ * std::sqrt(std::norm(lines_[k])));
   return amplitudes;
 }
 
@@ -130,19 +125,20 @@ std::optional<Spectra> spectra(const coupling::RunResult &run, double from)
     return std::nullopt;
   const SpectrumWindow window = window_of(rows);
   Spectra              result;
-  result.begin            = window.begin;
-  result.end              = window.t(window.n);
-  result.samples          = static_cast<int>(window.n);
-  result.resolution_hz    = 1. / (result.end - result.begin);
-  result.row_step         = window.row_step;
-  result.carried_hz       = (window.on_rows ? 0.5 : 0.25) / window.row_step;
+  result.begin         = window.begin;
+  result.end           = window.t(window.n);
+  result.samples       = static_cast<int>(window.n);
+  result.resolution_hz = 1. / (result.end - result.begin);
+  result.row_step      = window.row_step;
+  result.carried_hz    = (window.on_rows ? 0.5 : 0.25) / window.row_step;
+  HannSpectrum      spectrum(window.n);
   const std::size_t lines = std::min(most_lines, window.on_rows ? window.n / 2 : window.n / 4);
   for (const std::size_t j : chosen_columns(run))
   {
     const std::vector<double> samples = samples_of(rows, j, window);
     if (!std::all_of(samples.begin(), samples.end(), [](double y) { return std::isfinite(y); }))
       continue;
-    result.signals.push_back({run.columns[j], run.units[j], hann_amplitudes(samples)});
+    result.signals.push_back({run.columns[j], run.units[j], spectrum.amplitudes(samples)});
     result.signals.back().amplitudes.resize(lines + 1);
   }
   return result.signals.empty() ? std::nullopt : std::optional(result);

@@ -3,20 +3,35 @@
 #include "apps/analysis/spectra/spectrum_values.h"
 #include "coupling/simulation/run_result.h"
 
+#include <unsupported/Eigen/FFT>
+
+#include <complex>
 #include <optional>
 #include <vector>
 
 namespace gestell::apps
 {
 
-/// Amplitudes of a sum of cosines, with a Hann window:
+/// Amplitudes of a sum of cosines, with a Hann window w_j = (1 - cos(2 pi j / n)) / 2:
 ///
 ///     A(k) = 2 / sum(w) |sum_j w_j (y_j - mean) exp(-2 pi i j k / n)|,   k = 0 .. n / 2,
 ///
 /// and half of this at k = n / 2, the Nyquist frequency, where the lines of positive and negative frequency coincide.
-///
-/// @param samples  equidistant; fast if their number has no large prime factor
-std::vector<double> hann_amplitudes(std::vector<double> samples);
+class HannSpectrum
+{
+public:
+  /// @param n  number of samples; fast if it has no large prime factor
+  explicit HannSpectrum(std::size_t n);
+
+  /// @param samples  [n] equidistant
+  std::vector<double> amplitudes(std::vector<double> samples);
+
+private:
+  std::vector<double>               window_;
+  double                            sum_ = 0.;
+  Eigen::FFT<double>                transform_; ///< keeps its factors from signal to signal
+  std::vector<std::complex<double>> lines_;
+};
 
 /**
  * Spectra of the first forces, moments, accelerations and stresses, or else of the first signals, at most six.  They

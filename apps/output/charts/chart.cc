@@ -51,13 +51,17 @@ void for_each_point(const Chart &chart, const Use &use)
           use(curve.x[i], curve.y[i]);
 }
 
-/// The chart with both limits of both axes; limits of the ordinate follow from the values inside those of the abscissa.
-Chart with_axes(Chart chart)
+/// The chart without its panels, with both limits of both axes; limits of the ordinate follow from the values inside
+/// those of the abscissa.
+Chart with_axes(const Chart &described)
 {
+  Chart chart{described.title,   described.note,         described.x,      described.y,     {},
+              described.marks,   described.levels,       described.shades, described.width, described.height,
+              described.columns, described.legend_column};
   Range x, y;
-  for_each_point(chart, [&](double value, double) { x.add(value); });
+  for_each_point(described, [&](double value, double) { x.add(value); });
   chart.x = fitted(chart.x, x.low, x.high, 0.);
-  for_each_point(chart,
+  for_each_point(described,
                  [&](double at, double value)
                  {
                    if (chart.x.shows(at))
@@ -218,6 +222,8 @@ std::string marker(const Curve &curve, double x, double y, bool hollow)
 /// Whether one of the segments at point i is inside the window, or at least not entirely on one side of it.
 bool is_near(const Chart &chart, const Curve &curve, std::size_t i)
 {
+  if (chart.x.shows(curve.x[i]))
+    return true;
   const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, curve.x.size() - 1);
   const auto        all = [&](const auto &is_beside)
   { return is_beside(curve.x[before]) && is_beside(curve.x[i]) && is_beside(curve.x[after]); };
@@ -244,8 +250,9 @@ std::string line_path(const Chart &chart, const Curve &curve, const Area &area)
     }
     const double column = std::floor(area.x.at(curve.x[i]));
     std::size_t  last = i, low = i, high = i;
-    for (std::size_t k = i;
-         k < curve.x.size() && drawn(k) && (k == i || is_long) && std::floor(area.x.at(curve.x[k])) == column; ++k)
+    const auto   in_column = [&](double x) { return x >= column && x < column + 1.; };
+    for (std::size_t k = i; k < curve.x.size() && drawn(k) && (k == i || is_long) && in_column(area.x.at(curve.x[k]));
+         ++k)
     {
       last = k;
       low  = curve.y[k] < curve.y[low] ? k : low;
@@ -405,8 +412,8 @@ std::string chart_svg(const Chart &described)
                                     std::to_string(curve.y.size()) + " values; give one value per abscissa.");
 
   const Chart   chart   = with_axes(described);
-  const Heights heights = heights_of(chart);
-  const int     n = static_cast<int>(chart.panels.size()), columns = std::min(chart.columns, n);
+  const Heights heights = heights_of(described);
+  const int     n = static_cast<int>(described.panels.size()), columns = std::min(chart.columns, n);
   const int     rows  = (n + columns - 1) / columns;
   const double  head  = title_height + (chart.note.empty() ? 0. : note_height);
   const double  width = chart.width + chart.legend_column, height = heights.above() + chart.height;
@@ -414,7 +421,7 @@ std::string chart_svg(const Chart &described)
   std::string svg = svg_head(columns * width, head + rows * height, chart.title) +
                     svg_text(left_margin, 19., chart.title, "title") + svg_text(left_margin, 37., chart.note, "small");
   for (int i = 0; i < n; ++i)
-    svg += panel_svg(chart, chart.panels[i], heights, (i % columns) * width, head + (i / columns) * height);
+    svg += panel_svg(chart, described.panels[i], heights, (i % columns) * width, head + (i / columns) * height);
   return svg + "</svg>\n";
 }
 

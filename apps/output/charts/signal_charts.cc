@@ -15,15 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-std::vector<double> column(const coupling::RunResult &run, std::size_t j)
-{
-  const std::size_t   width = run.columns.size(), n = run.rows.size() / width;
-  std::vector<double> values(n);
-  for (std::size_t i = 0; i < n; ++i)
-    values[i] = run.rows[i * width + j];
-  return values;
-}
-
 struct SignalRange
 {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
@@ -32,18 +23,25 @@ struct SignalRange
   double size() const { return high >= low ? std::max(std::abs(low), std::abs(high)) : 0.; }
 };
 
-SignalRange range_of(const coupling::RunResult &run, std::size_t j)
+/// The history by columns, each with its range.
+struct SignalColumns
 {
-  SignalRange       range;
-  const std::size_t width = run.columns.size();
-  for (std::size_t i = j; i < run.rows.size(); i += width)
-    if (std::isfinite(run.rows[i]))
-    {
-      range.low  = std::min(range.low, run.rows[i]);
-      range.high = std::max(range.high, run.rows[i]);
-    }
-  return range;
-}
+  explicit SignalColumns(const coupling::RunResult &run)
+      : values(run.columns.size(), std::vector<double>(run.columns.empty() ? 0 : run.rows.size() / run.columns.size())),
+        ranges(values.size())
+  {
+    for (std::size_t i = 0, k = 0; !values.empty() && i < values.front().size(); ++i)
+      for (std::size_t j = 0; j < values.size(); ++j, ++k)
+        values[j][i] = run.rows[k];
+    for (std::size_t j = 0; j < values.size(); ++j)
+      for (const double y : values[j])
+        if (std::isfinite(y))
+          ranges[j] = {std::min(ranges[j].low, y), std::max(ranges[j].high, y)};
+  }
+
+  std::vector<std::vector<double>> values;
+  std::vector<SignalRange>         ranges;
+};
 
 ChartTopic topic_of(const std::string &unit)
 {
@@ -86,11 +84,11 @@ std::string names_in_title(const coupling::RunResult &run, const SignalGroup &gr
   return n_letters(names) <= most_letters ? ": " + names : ", " + std::to_string(group.columns.size()) + " signals";
 }
 
-Chart chart_of(const coupling::RunResult &run, const SignalGroup &group)
+Chart chart_of(const coupling::RunResult &run, const SignalColumns &columns, const SignalGroup &group)
 {
   double size = 0.;
   for (const std::size_t j : group.columns)
-    size = std::max(size, range_of(run, j).size());
+    size = std::max(size, columns.ranges[j].size());
   const DisplayUnit shown = display_unit(group.unit, size);
 
   Chart chart;
@@ -99,12 +97,11 @@ Chart chart_of(const coupling::RunResult &run, const SignalGroup &group)
   chart.title  = quantity_of(group.unit);
   if (topic_of(group.unit) != ChartTopic::energy)
     chart.title += names_in_title(run, group);
-  chart.x.label                  = "t [s]";
-  chart.y.label                  = "[" + shown.unit + "]";
-  const std::vector<double> time = column(run, 0);
+  chart.x.label = "t [s]";
+  chart.y.label = "[" + shown.unit + "]";
   for (const std::size_t j : group.columns)
   {
-    Curve curve{run.columns[j], time, column(run, j)};
+    Curve curve{run.columns[j], columns.values.front(), columns.values[j]};
     for (double &y : curve.y)
       y *= shown.factor;
     chart.panels[0].add(std::move(curve));
@@ -124,9 +121,9 @@ std::string file_name(std::string text)
 }
 
 /// Where a signal changes most within the duration of a shock, and by how much.
-std::pair<double, double> hardest_change(const coupling::RunResult &run, std::size_t j)
+std::pair<double, double> hardest_change(const SignalColumns &columns, std::size_t j)
 {
-  const std::vector<double> t = column(run, 0), y = column(run, j);
+  const std::vector<double> &t = columns.values.front(), &y = columns.values[j];
   // A shock lasts no longer than this part of the run; what is slower is a vibration.
   constexpr std::size_t shock_share = 200;
   const std::size_t     reach       = std::max<std::size_t>(1, y.size() / shock_share);
@@ -141,15 +138,13 @@ std::pair<double, double> hardest_change(const coupling::RunResult &run, std::si
 }
 
 /// Whether the shock shows in one of the signals: a third of its way within the time of a shock.
-bool is_shaken(const coupling::RunResult &run, const SignalGroup &group)
+bool is_shaken(const SignalColumns &columns, const SignalGroup &group)
 {
   return std::any_of(group.columns.begin(), group.columns.end(),
-                     [&](std::size_t j) { return hardest_change(run, j).second > range_of(run, j).span() / 3.; });
+                     [&](std::size_t j) { return hardest_change(columns, j).second > columns.ranges[j].span() / 3.; });
 }
 
-} // namespace
-
-std::vector<SignalGroup> group_signals(const coupling::RunResult &run)
+std::vector<SignalGroup> groups_of(const coupling::RunResult &run, const SignalColumns &columns)
 {
   std::vector<std::string>                        units; // in the order of their first column
   std::map<std::string, std::vector<std::size_t>> of_unit;
@@ -165,7 +160,7 @@ std::vector<SignalGroup> group_signals(const coupling::RunResult &run)
   {
     std::vector<std::pair<double, std::size_t>> by_span;
     for (const std::size_t j : of_unit[unit])
-      by_span.emplace_back(range_of(run, j).span(), j);
+      by_span.emplace_back(columns.ranges[j].span(), j);
     std::stable_sort(by_span.begin(), by_span.end(), [](auto &a, auto &b) { return a.first > b.first; });
 
     double widest = -1.;
@@ -185,7 +180,7 @@ std::vector<SignalGroup> group_signals(const coupling::RunResult &run)
   return groups;
 }
 
-std::pair<double, double> main_shock(const coupling::RunResult &run)
+std::pair<double, double> shock_of(const coupling::RunResult &run, const SignalColumns &columns)
 {
   const std::size_t     width = run.columns.size(), n = width > 0 ? run.rows.size() / width : 0;
   constexpr std::size_t fewest_for_zoom = 200; // rows: a shock lasts a 200th of them, one row at least
@@ -195,12 +190,12 @@ std::pair<double, double> main_shock(const coupling::RunResult &run)
   double widest = 0.;
   for (std::size_t j = 1; j < width; ++j)
     if (run.units[j] == "N")
-      widest = std::max(widest, range_of(run, j).span());
-  double at      = hardest_change(run, 1).first,
+      widest = std::max(widest, columns.ranges[j].span());
+  double at      = hardest_change(columns, 1).first,
          hardest = 0.; // share of its range by which a force of some size changes: rings follow
   for (std::size_t j = 1; j < width; ++j)
-    if (const double span = range_of(run, j).span(); run.units[j] == "N" && span > 0. && span >= widest / 3.)
-      if (const auto [t, change] = hardest_change(run, j); change / span > hardest)
+    if (const double span = columns.ranges[j].span(); run.units[j] == "N" && span > 0. && span >= widest / 3.)
+      if (const auto [t, change] = hardest_change(columns, j); change / span > hardest)
       {
         hardest = change / span;
         at      = t;
@@ -210,26 +205,47 @@ std::pair<double, double> main_shock(const coupling::RunResult &run)
   return {begin, begin + zoom};
 }
 
+} // namespace
+
+std::vector<SignalGroup> group_signals(const coupling::RunResult &run)
+{
+  return groups_of(run, SignalColumns(run));
+}
+
+std::pair<double, double> main_shock(const coupling::RunResult &run)
+{
+  return shock_of(run, SignalColumns(run));
+}
+
 std::vector<SignalChart> signal_charts(const coupling::RunResult &run)
 {
   std::vector<SignalChart> charts;
   if (run.columns.size() < 2 || run.rows.size() < 2 * run.columns.size())
     return charts;
 
-  const auto                 shock = main_shock(run);
+  const SignalColumns        columns(run);
+  const auto                 shock = shock_of(run, columns);
   std::map<std::string, int> used; // how often a quantity has had a chart
-  for (const SignalGroup &group : group_signals(run))
+  for (const SignalGroup &group : groups_of(run, columns))
   {
-    Chart       chart = chart_of(run, group);
+    Chart       chart = chart_of(run, columns, group);
     std::string name  = file_name(quantity_of(group.unit));
     if (const int n = ++used[name]; n > 1)
       name += "-" + std::to_string(n);
-    charts.push_back({name, chart_svg(chart), topic_of(group.unit), chart});
-    if (topic_of(group.unit) != ChartTopic::force || !(shock.second > shock.first) || !is_shaken(run, group))
-      continue;
-    chart.title += ", around the main shock";
-    std::tie(chart.x.begin, chart.x.end) = shock;
-    charts.push_back({name + "-shock", chart_svg(chart), ChartTopic::force, chart, true});
+    const auto add = [&](const std::string &as, Chart shown, bool is_part)
+    {
+      std::string svg = chart_svg(shown);
+      charts.push_back({as, std::move(svg), topic_of(group.unit), std::move(shown), is_part});
+    };
+    if (topic_of(group.unit) == ChartTopic::force && shock.second > shock.first && is_shaken(columns, group))
+    {
+      add(name, chart, false);
+      chart.title += ", around the main shock";
+      std::tie(chart.x.begin, chart.x.end) = shock;
+      name += "-shock";
+    }
+    const bool is_part = !std::isnan(chart.x.begin);
+    add(name, std::move(chart), is_part);
   }
   return charts;
 }

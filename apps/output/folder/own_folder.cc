@@ -267,9 +267,10 @@ void OwnFolder::remove_all(const std::function<bool(const std::string &)> &goes)
   for (const std::string &name : names_)
   {
     folders.insert(fs::path(name).parent_path().generic_string());
-    if (goes(name))
-      remove(name);
-    if (is_there(path_ / name) && owns(name))
+    const bool own = owns(name);
+    if (own && goes(name))
+      fs::remove(path_ / name);
+    else if (own)
       kept.insert(name);
   }
   for (const std::string &inner : folders)

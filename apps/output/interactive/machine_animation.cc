@@ -1,5 +1,6 @@
 #include "apps/output/interactive/machine_animation.h"
 
+#include "apps/output/pictures/chosen_pictures.h"
 #include "apps/output/pictures/machine_state.h"
 #include "apps/output/pictures/mechanism_shapes.h"
 #include "apps/output/pictures/scenery_skin.h"
@@ -12,12 +13,29 @@ namespace gestell::apps
 namespace
 {
 
+double area(const Skin &skin)
+{
+  double sum = 0.;
+  for (const auto &[a, b, c] : skin.triangles)
+    sum += 0.5 * (skin.points[b] - skin.points[a]).cross(skin.points[c] - skin.points[a]).norm();
+  return sum;
+}
+
+/// A plane has two triangles in each cell of the grid, an edge more: a skin with too many begins there.  Their number
+/// falls with a power of the cell's edge; each step takes that of the one before, at first the square of planes.
 CoarseMesh coarse(const Skin &skin, std::size_t most)
 {
-  double     edge = skin.size() / 150.;
+  double edge = skin.size() / 150., inverse_power = 0.5;
+  if (skin.triangles.size() > most)
+    edge = std::max(edge, std::sqrt(2. * area(skin) / double(most)));
   CoarseMesh mesh = coarse_mesh(skin, edge);
   while (mesh.triangles.size() > most)
-    mesh = coarse_mesh(skin, edge *= 1.15);
+  {
+    const double n      = double(mesh.triangles.size());
+    const double factor = std::clamp(std::pow(n / double(most), inverse_power), 1.15, 2.);
+    mesh                = coarse_mesh(skin, edge *= factor);
+    inverse_power       = std::log(factor) / std::log(n / double(mesh.triangles.size()));
+  }
   return mesh;
 }
 
@@ -69,28 +87,13 @@ void add_instant(AnimationInstants &seen, double t, const Eigen::VectorXd &q)
 
 AnimationInstants animation_instants(const Result &result, std::size_t most)
 {
-  const auto      &times        = result.run->picture_times;
-  const auto      &states       = result.run->picture_states;
-  const auto      &peak         = result.peak;
-  constexpr double dense_swings = 3.; // before and after the main peak: the impact and its first echoes
-  const auto       dense        = [&](double t)
-  { return peak && peak->half_swing > 0. && std::abs(t - peak->t) <= dense_swings * peak->half_swing; };
-  const std::size_t around = std::min(std::size_t(std::count_if(times.begin(), times.end(), dense)), most / 2);
-  const std::size_t every  = (states.size() - around + most - around - 1) / (most - around);
   AnimationInstants seen;
-  std::size_t       left = around, sparse = 0;
-  for (std::size_t k = 0; k < states.size(); ++k)
+  for (const std::size_t k : chosen_pictures(result, most))
   {
-    const bool by_peak = left > 0 && dense(times[k]);
-    if (by_peak)
-      --left;
-    if (by_peak || sparse++ % every == 0 || k + 1 == states.size())
-    {
-      seen.times.push_back(times[k]);
-      seen.states.push_back(states[k]);
-    }
+    seen.times.push_back(result.run->picture_times[k]);
+    seen.states.push_back(result.run->picture_states[k]);
   }
-  if (peak && !states.empty() && peak->q.size() == states.front().size())
+  if (const auto &peak = result.peak; peak && !seen.states.empty() && peak->q.size() == seen.states.front().size())
     add_instant(seen, peak->t, peak->q);
   return seen;
 }
@@ -126,16 +129,17 @@ std::vector<Shape> MachineAnimation::bodies(const Eigen::VectorXd &q) const
 
 Eigen::MatrixXd MachineAnimation::displacements_of_coordinates() const
 {
-  Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(chosen_.size()), scenery_.n_frame);
-  for (Eigen::Index j = 0; j < columns.cols(); ++j)
-    columns.col(j) = displacement_of(Eigen::VectorXd::Unit(scenery_.n_frame, j));
-  return columns;
+  return frame_displacements(Eigen::MatrixXd::Identity(scenery_.n_frame, scenery_.n_frame));
 }
 
-Eigen::VectorXd MachineAnimation::frame_displacement(const Eigen::VectorXd &q) const
+Eigen::MatrixXd MachineAnimation::frame_displacements(const Eigen::MatrixXd &p) const
 {
-  const Eigen::VectorXd p = q.head(scenery_.n_frame);
-  return displacements_.size() > 0 ? displacements_ * p : displacement_of(p);
+  if (displacements_.size() > 0)
+    return displacements_ * p;
+  Eigen::MatrixXd u(3 * static_cast<Eigen::Index>(chosen_.size()), p.cols());
+  for (Eigen::Index k = 0; k < p.cols(); ++k)
+    u.col(k) = displacement_of(p.col(k));
+  return u;
 }
 
 Eigen::VectorXd MachineAnimation::displacement_of(const Eigen::VectorXd &p) const
@@ -157,12 +161,13 @@ std::vector<PartMotion> MachineAnimation::motion(const std::vector<Eigen::Vector
     motions.push_back({Eigen::MatrixXd::Zero(size, n), Eigen::MatrixXd::Zero(size, n)});
   }
   const std::size_t first_body = has_frame() ? 1 : 0;
+  Eigen::MatrixXd   of_frame(scenery_.n_frame, n);
   for (Eigen::Index k = 0; k < n; ++k)
   {
-    const Eigen::VectorXd &q = states[static_cast<std::size_t>(k)];
-    if (has_frame())
-      motions[0].displacement.col(k) = frame_displacement(q);
+    const Eigen::VectorXd   &q  = states[static_cast<std::size_t>(k)];
     const std::vector<Shape> at = bodies(q);
+    if (has_frame())
+      of_frame.col(k) = q.head(scenery_.n_frame);
     for (std::size_t i = 0; i < at.size() && first_body + i < parts_.size(); ++i)
       if (const Shape &rest = parts_[first_body + i]; rest.points.size() == at[i].points.size())
       {
@@ -170,6 +175,8 @@ std::vector<PartMotion> MachineAnimation::motion(const std::vector<Eigen::Vector
         motions[first_body + i].displacement.col(k) = column(at[i].displacement);
       }
   }
+  if (has_frame())
+    motions[0].displacement = frame_displacements(of_frame);
   return motions;
 }
 
@@ -185,7 +192,7 @@ std::vector<Eigen::VectorXd> MachineAnimation::frame_mode(const Eigen::VectorXd 
 {
   std::vector<Eigen::VectorXd> displacements = at_rest();
   if (has_frame())
-    displacements[0] = frame_displacement(shape);
+    displacements[0] = frame_displacements(shape.head(scenery_.n_frame));
   return displacements;
 }
 

@@ -25,8 +25,7 @@ struct AnimationInstants
   std::vector<Eigen::VectorXd> states;
 };
 
-/// Every k-th saved state of the run, at most about `most` in total.  States within three `half_swing` of the main peak
-/// are all retained, up to `most` / 2.  The last state and the main peak are always included.
+/// The chosen_pictures() and, in addition, the main peak.
 AnimationInstants animation_instants(const Result &result, std::size_t most);
 
 /// Frame and bodies for the view, on few triangles.
@@ -52,7 +51,7 @@ public:
 private:
   Eigen::MatrixXd    displacements_of_coordinates() const; ///< [3 points x n_frame]
   Eigen::VectorXd    displacement_of(const Eigen::VectorXd &p) const;
-  Eigen::VectorXd    frame_displacement(const Eigen::VectorXd &q) const;
+  Eigen::MatrixXd    frame_displacements(const Eigen::MatrixXd &p) const; ///< by columns of coordinates [n_frame]
   std::vector<Shape> bodies(const Eigen::VectorXd &q) const;
 
   Scenery            scenery_;

@@ -18,7 +18,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_instants = 200; ///< states of an animation; more make the page too large
+constexpr std::size_t most_instants = 100; ///< states of an animation; more make the page too large
 /// largest displacement of an enlarged motion, of the machine's size: bodies must not pass through each other
 constexpr double motion_size = 0.02;
 constexpr double exactness   = 1e-4; ///< of the drawn positions, of the machine's size
@@ -98,8 +98,9 @@ double round_enlargement(double x)
 /// Fewer instants for many parts, to limit the size of the page; motion between them is then not interpolated.
 std::size_t instants_of(std::size_t n_parts)
 {
-  constexpr std::size_t fewest = 24; // a film of one swing or two
-  return n_parts <= most_instants ? most_instants : std::max(fewest, most_instants * most_instants / n_parts);
+  constexpr std::size_t most_positions = 40000; // parts times instants: some MB
+  constexpr std::size_t fewest         = 24;    // a film of one swing or two
+  return std::clamp(most_positions / n_parts, fewest, most_instants);
 }
 
 Json motion_json(const MachineAnimation &machine, const Result &result)

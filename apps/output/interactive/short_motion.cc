@@ -1,6 +1,6 @@
 #include "apps/output/interactive/short_motion.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <cmath>
 
@@ -9,11 +9,30 @@ namespace gestell::apps
 namespace
 {
 
-/// Columns by weights, how far the worst is off.
-double worst(const Eigen::MatrixXd &motion, const Eigen::MatrixXd &basis, const Eigen::MatrixXd &weights)
+/// Instants whose columns U_p span all others within the tolerance, and the factor L [instants x p] of
+///
+///     U^T U = L L^T + R,    diag(R)_k <= tolerance^2,    U = U_p L_p^-T L^T up to the root of diag(R)_k in column k:
+///
+/// Cholesky's factorisation that takes the instant with the largest rest next and ends when all are small.
+struct SpanningInstants
 {
-  return (motion - basis * weights.transpose()).colwise().norm().maxCoeff();
-}
+  std::vector<Eigen::Index> taken;
+  Eigen::MatrixXd           factor;
+
+  SpanningInstants(const Eigen::MatrixXd &gram, double tolerance) : factor(gram.rows(), 0)
+  {
+    Eigen::VectorXd rest = gram.diagonal();
+    Eigen::Index    next = 0;
+    while (rest.maxCoeff(&next) > tolerance * tolerance && factor.cols() < gram.cols())
+    {
+      const Eigen::VectorXd column = (gram.col(next) - factor * factor.row(next).transpose()) / std::sqrt(rest(next));
+      taken.push_back(next);
+      factor.conservativeResize(Eigen::NoChange, factor.cols() + 1);
+      factor.rightCols<1>() = column;
+      rest -= column.cwiseAbs2();
+    }
+  }
+};
 
 } // namespace
 
@@ -22,13 +41,17 @@ ShortMotion short_motion(const Eigen::MatrixXd &motion, double tolerance)
   ShortMotion result;
   if (motion.size() == 0 || motion.colwise().norm().maxCoeff() <= tolerance)
     return result;
-  // U^T U = V S^2 V^T: its right singular vectors, the largest last; U V are the shapes.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(motion.transpose() * motion);
-  Eigen::Index                                         rank = 1;
-  const auto vectors = [&] { return Eigen::MatrixXd(gram.eigenvectors().rightCols(rank)); };
-  while (rank < motion.cols() && worst(motion, motion * vectors(), vectors()) > tolerance)
-    ++rank;
-  const Eigen::MatrixXd weights = vectors(), basis = motion * weights;
+  const Eigen::MatrixXd  gram = motion.transpose() * motion;
+  const SpanningInstants spanning(gram, tolerance);
+  const Eigen::MatrixXd &weights = spanning.factor;
+  const auto             rank    = weights.cols();
+  Eigen::MatrixXd        basis(motion.rows(), rank), corner(rank, rank);
+  for (Eigen::Index r = 0; r < rank; ++r)
+  {
+    basis.col(r)  = motion.col(spanning.taken[std::size_t(r)]);
+    corner.row(r) = weights.row(spanning.taken[std::size_t(r)]);
+  }
+  corner.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(basis);
 
   Eigen::MatrixXf scaled = weights.cast<float>();
   for (Eigen::Index r = 0; r < rank; ++r)

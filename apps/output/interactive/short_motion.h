@@ -13,7 +13,7 @@ namespace gestell::apps
  *
  *     u(k) = sum_r weights(k, r) shapes(r),
  *
- * from a truncated singular value decomposition of all instants.
+ * from the instants that span all others within a tolerance.
  */
 struct ShortMotion
 {

@@ -51,15 +51,16 @@ std::vector<ActingForce> forces_at(const Result &result, std::size_t k)
                                run.picture_forces[k]);
 }
 
-void write_force_files(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
+void write_force_files(OwnFolder &folder, const Result &result, const std::vector<std::size_t> &pictures,
+                       std::vector<std::string> &names)
 {
   Collection collection;
-  for (std::size_t k = 0; k < result.run->picture_states.size(); ++k)
+  for (const std::size_t k : pictures)
   {
     const std::vector<ActingForce> forces = forces_at(result, k);
     if (forces.empty())
       return;
-    const std::string file = numbered("forces/forces_", k);
+    const std::string file = numbered("forces/forces_", collection.size());
     names.push_back(file);
     write_forces(folder.claim(file), forces);
     collection.add(result.run->picture_times[k], 0, file);

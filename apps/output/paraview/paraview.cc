@@ -2,6 +2,7 @@
 
 #include "apps/output/paraview/force_files.h"
 #include "apps/output/paraview/surface_file.h"
+#include "apps/output/pictures/chosen_pictures.h"
 #include "apps/output/pictures/machine_state.h"
 #include "apps/output/pictures/mechanism_shapes.h"
 #include "fem/values/number_text.h"
@@ -126,6 +127,12 @@ std::string view_macro(const ViewMacro &view)
 
 namespace fs = std::filesystem;
 
+/// Size of a file: place, displacement and velocity of each point, corners, offset and body of each triangle.
+double file_bytes(long points, long triangles)
+{
+  return 36. * double(points) + 20. * double(triangles);
+}
+
 /// The frame: its skin, or where it has none its interfaces as points.
 class FrameSurface
 {
@@ -169,6 +176,7 @@ public:
   }
 
   double size() const { return surface_.poly->GetLength(); }
+  double bytes() const { return file_bytes(surface_.poly->GetNumberOfPoints(), surface_.poly->GetNumberOfCells()); }
   void   note(const char *name, double value) { surface_.note(name, value); }
 
 private:
@@ -234,6 +242,12 @@ std::vector<Eigen::Vector3d> body_velocities(const Scenery &scenery, const Eigen
   return velocities;
 }
 
+/// @param u  [3 points]
+double largest_point(const Eigen::VectorXd &u)
+{
+  return u.size() > 0 ? Eigen::Map<const Eigen::Matrix3Xd>(u.data(), 3, u.size() / 3).colwise().norm().maxCoeff() : 0.;
+}
+
 void write_frame_modes(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
   FrameSurface frame(result.scenery);
@@ -244,9 +258,7 @@ void write_frame_modes(OwnFolder &folder, const Result &result, std::vector<std:
   for (std::size_t j = 0; j < result.frame_modes.size(); ++j)
   {
     Eigen::VectorXd u       = frame.displacement(result.frame_modes[j].shape);
-    double          largest = 0.;
-    for (long i = 0; i < u.size(); i += 3)
-      largest = std::max(largest, u.segment<3>(i).norm());
+    const double    largest = largest_point(u);
     if (largest > 0.)
       u *= shown_size * (frame.size() > 0. ? frame.size() : 1.) / largest;
     frame.note("frequency [Hz]", result.frame_modes[j].frequency_hz);
@@ -259,21 +271,34 @@ void write_frame_modes(OwnFolder &folder, const Result &result, std::vector<std:
   folder.write("frame_modes.pvd", collection.document());
 }
 
-/// Frame and mechanism together, as write_frame_modes() writes the frame.
+double largest_of(const std::vector<std::vector<Eigen::Vector3d>> &shapes)
+{
+  double largest = 0.;
+  for (const auto &shape : shapes)
+    for (const Eigen::Vector3d &u : shape)
+      largest = std::max(largest, u.norm());
+  return largest;
+}
+
+/// Frame and mechanism together, as write_frame_modes() writes the frame; not for a run, whose page shows them.
 void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
-  if (result.coupled_modes.empty() || result.modes_at.size() == 0 ||
+  if (result.run || result.coupled_modes.empty() || result.modes_at.size() == 0 ||
       (result.scenery.bodies.empty() && result.scenery.n_frame == 0))
     return;
-  FrameSurface frame(result.scenery);
-  Collection   collection;
+  FrameSurface       frame(result.scenery);
+  Collection         collection;
+  std::vector<Shape> shapes = mechanism_shapes(result.scenery, result.modes_at);
+  const double       size   = shown_size * machine_state(result.scenery, result.modes_at).size();
   for (std::size_t j = 0; j < result.coupled_modes.size(); ++j)
   {
-    const coupling::Mode &mode  = result.coupled_modes[j];
-    MachineState          state = mode_state(result.scenery, result.modes_at, mode.shape);
-    const double          times = mode_enlargement(state);
-    int                   part  = 0;
-    const auto            file  = [&](const char *stem)
+    const coupling::Mode &mode    = result.coupled_modes[j];
+    const Eigen::VectorXd u       = frame.displacement(mode.shape);
+    const auto            bodies  = body_mode(result.scenery, result.modes_at, mode.shape);
+    const double          largest = std::max(result.scenery.has_skin() ? largest_point(u) : 0., largest_of(bodies));
+    const double          times   = largest > 0. ? size / largest : size;
+    int                   part    = 0;
+    const auto            file    = [&](const char *stem)
     {
       names.push_back(numbered(std::string("coupled_modes/") + stem, j + 1));
       collection.add(static_cast<double>(j + 1), part++, names.back());
@@ -281,28 +306,24 @@ void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<st
     };
     frame.note("frequency [Hz]", mode.frequency_hz);
     if (!frame.empty())
-      frame.write(file("frame_"), times * state.scale * frame.displacement(mode.shape));
-    for (Shape &shape : state.shapes)
-      for (Eigen::Vector3d &u : shape.displacement)
-        u *= times;
-    if (!state.shapes.empty())
-      write_mechanism(file("mechanism_"), state.shapes);
+      frame.write(file("frame_"), times * u);
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      for (std::size_t p = 0; p < bodies[i].size(); ++p)
+        shapes[i].displacement[p] = times * bodies[i][p];
+    if (!shapes.empty())
+      write_mechanism(file("mechanism_"), shapes);
   }
   names.push_back("coupled_modes.pvd");
   folder.write("coupled_modes.pvd", collection.document());
 }
 
 /// View of the main peak or, if there is none, of the start of the motion.
-ViewMacro macro_of(const Result &result)
+ViewMacro macro_of(const Result &result, const std::vector<std::size_t> &pictures)
 {
   const coupling::RunResult &run = *result.run;
-  const std::size_t          k =
-      result.peak ? static_cast<std::size_t>(
-                        std::min(std::lower_bound(run.picture_times.begin(), run.picture_times.end(), result.peak->t) -
-                                              run.picture_times.begin(),
-                                          static_cast<std::ptrdiff_t>(run.picture_times.size()) - 1))
-                           : 0;
-  const MachineState state = machine_state(result.scenery, run.picture_states[k]);
+  const auto         early       = [&](std::size_t k) { return result.peak && run.picture_times[k] < result.peak->t; };
+  const std::size_t  k           = *std::partition_point(pictures.begin(), pictures.end() - 1, early);
+  const MachineState state       = machine_state(result.scenery, run.picture_states[k]);
   ViewMacro          view;
   view.time        = run.picture_times[k];
   view.size        = state.size();
@@ -315,6 +336,18 @@ ViewMacro macro_of(const Result &result)
   return view;
 }
 
+/// At most a hundred pictures and 20 MB, unless large results are allowed.
+std::vector<std::size_t> pictures_of_motion(const Result &result, const FrameSurface &frame)
+{
+  constexpr double most = 100., most_bytes = 20e6, least = 3.; // the ends and the peak
+  double           bytes = frame.bytes();
+  for (const Shape &body : mechanism_shapes(result.scenery, result.run->picture_states.front()))
+    bytes += file_bytes(long(body.points.size()), long(body.triangles.size()));
+  const bool all = result.requested.run && result.requested.run->allow_large;
+  return chosen_pictures(result, all ? result.run->picture_states.size()
+                                     : std::size_t(std::clamp(most_bytes / std::max(bytes, 1.), least, most)));
+}
+
 void write_motion(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
   if (!result.run || result.run->picture_states.empty())
@@ -322,14 +355,16 @@ void write_motion(OwnFolder &folder, const Result &result, std::vector<std::stri
   const coupling::RunResult &run = *result.run;
   FrameSurface               frame(result.scenery);
 
-  Collection collection;
-  for (std::size_t k = 0; k < run.picture_states.size(); ++k)
+  Collection                     collection;
+  const std::vector<std::size_t> pictures = pictures_of_motion(result, frame);
+  std::size_t                    number   = 0;
+  for (const std::size_t k : pictures)
   {
     const Eigen::VectorXd &q    = run.picture_states[k];
     int                    part = 0;
     const auto             file = [&](const char *stem)
     {
-      names.push_back(numbered(std::string("motion/") + stem, k));
+      names.push_back(numbered(std::string("motion/") + stem, number));
       collection.add(run.picture_times[k], part++, names.back());
       return folder.claim(names.back());
     };
@@ -341,12 +376,13 @@ void write_motion(OwnFolder &folder, const Result &result, std::vector<std::stri
     if (!shapes.empty())
       write_mechanism(file("mechanism_"), shapes,
                       moves ? body_velocities(result.scenery, q, v) : std::vector<Eigen::Vector3d>());
+    ++number;
   }
   names.push_back("motion.pvd");
   folder.write("motion.pvd", collection.document());
-  write_force_files(folder, result, names);
+  write_force_files(folder, result, pictures, names);
   names.push_back("view.py");
-  folder.write("view.py", view_macro(macro_of(result)));
+  folder.write("view.py", view_macro(macro_of(result, pictures)));
 }
 
 void write_stress(OwnFolder &folder, const Result &result, std::vector<std::string> &names)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/paraview/surface_document.h"
 #include "apps/output/text/write_file.h"
 #include "fem/values/number_text.h"
 
@@ -11,7 +12,6 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkXMLPolyDataWriter.h>
 
 #include <Eigen/Core>
 
@@ -93,20 +93,7 @@ struct Surface
     poly->SetVerts(cells);
   }
 
-  void write(const std::filesystem::path &path)
-  {
-    displacement->Modified();
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->WriteToOutputStringOn(); // on a full disk VTK leaves a truncated file and does not always report an error
-    writer->SetInputData(poly);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    // LZ4 halves the size at no cost in time; zlib would halve it again and take ten times as long.
-    writer->SetCompressorTypeToLZ4();
-    if (writer->Write() == 0)
-      throw std::runtime_error(path.string() + ": VTK cannot make this file");
-    write_file(path, writer->GetOutputString());
-  }
+  void write(const std::filesystem::path &path) { write_file(path, surface_document(*poly)); }
 };
 
 /// A .pvd file: a collection of data sets with their time and part.
@@ -117,7 +104,9 @@ public:
   {
     entries_ += "    <DataSet timestep=\"" + exact_text(time) + "\" part=\"" + std::to_string(part) + "\" file=\"" +
                 file + "\"/>\n";
+    ++size_;
   }
+  std::size_t size() const { return size_; } ///< data sets so far
   std::string document() const
   {
     return "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
@@ -127,6 +116,7 @@ public:
 
 private:
   std::string entries_;
+  std::size_t size_ = 0;
 };
 
 inline std::string numbered(const std::string &stem, std::size_t n)

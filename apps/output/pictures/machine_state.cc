@@ -68,7 +68,7 @@ double MachineState::largest_displacement() const
 
 MachineState machine_state(const Scenery &scenery, const Eigen::VectorXd &q)
 {
-  return {skin_of(scenery, q), mechanism_shapes(scenery, q), 1.};
+  return {skin_of(scenery, q), mechanism_shapes(scenery, q)};
 }
 
 std::vector<std::vector<Vector3d>> differences(const Scenery &scenery, const std::vector<Shape> &before,
@@ -104,35 +104,10 @@ std::vector<std::vector<Vector3d>> body_mode(const Scenery &scenery, const Eigen
   return moved;
 }
 
-MachineState mode_state(const Scenery &scenery, const Eigen::VectorXd &q0, const Eigen::VectorXd &shape)
-{
-  MachineState state{skin_of(scenery, shape), mechanism_shapes(scenery, q0), 1.};
-  auto         moved   = body_mode(scenery, q0, shape);
-  double       largest = state.skin.largest_displacement();
-  for (std::size_t i = 0; i < moved.size(); ++i)
-  {
-    state.shapes[i].displacement = std::move(moved[i]);
-    for (const Vector3d &u : state.shapes[i].displacement)
-      largest = std::max(largest, u.norm());
-  }
-  state.scale = largest > 0. ? 1. / largest : 1.;
-  for (Vector3d &u : state.skin.displacement)
-    u *= state.scale;
-  for (Shape &body : state.shapes)
-    for (Vector3d &u : body.displacement)
-      u *= state.scale;
-  return state;
-}
-
 double shown_enlargement(const MachineState &state)
 {
   const double largest = state.largest_displacement(), size = state.size();
   return largest > 0. && size > 0. ? round_number(shown_size * size / largest) : 0.;
-}
-
-double mode_enlargement(const MachineState &state)
-{
-  return shown_size * state.size();
 }
 
 } // namespace gestell::apps

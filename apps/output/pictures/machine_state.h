@@ -18,7 +18,6 @@ struct MachineState
 {
   Skin               skin;
   std::vector<Shape> shapes;
-  double             scale = 1.; ///< of a mode: factor that its shape was multiplied by
 
   double size() const; ///< [m] diagonal of the box around frame and bodies
   /// Largest displacement [m] of the frame, or of the bodies if the frame has no skin.
@@ -38,14 +37,8 @@ std::vector<std::vector<Eigen::Vector3d>> differences(const Scenery &scenery, co
 std::vector<std::vector<Eigen::Vector3d>> body_mode(const Scenery &scenery, const Eigen::VectorXd &q0,
                                                     const Eigen::VectorXd &shape);
 
-/// The same of frame and mechanism, scaled so that the largest displacement is 1 m.
-MachineState mode_state(const Scenery &scenery, const Eigen::VectorXd &q0, const Eigen::VectorXd &shape);
-
 /// The enlargement, a round number, for which the largest displacement is at most a twentieth of the size; 0 if nothing
 /// moves.
 double shown_enlargement(const MachineState &state);
-
-/// The enlargement of a mode for which its largest displacement, of frame or body, is a twentieth of the size.
-double mode_enlargement(const MachineState &state);
 
 } // namespace gestell::apps

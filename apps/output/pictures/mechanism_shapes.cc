@@ -271,12 +271,21 @@ Shape pins_shape(const Scenery &scenery, double radius, const Split &split, cons
   return shape;
 }
 
+bool is_free(const coupling::Body &body)
+{
+  using coupling::BodyKind;
+  return body.kind == BodyKind::point || body.kind == BodyKind::planar || body.kind == BodyKind::rigid;
+}
+
 } // namespace
 
 std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorXd &q)
 {
   using coupling::BodyKind;
-  const double       size = scenery.size();
+  // Rotors, sliders and rods have sizes of their own: that of the machine is not needed for them.
+  const bool sizes_follow = !scenery.bars.empty() || !scenery.pins.empty() ||
+                            std::any_of(scenery.bodies.begin(), scenery.bodies.end(), is_free);
+  const double       size = sizes_follow ? scenery.size() : 0.;
   const Split        split(scenery, q);
   const Roundness    roundness(scenery.bodies.size() + scenery.bars.size());
   int                n_free = 0;
@@ -284,7 +293,7 @@ std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorX
   for (const coupling::Body &body : scenery.bodies)
     if (const DrawnPart *part = part_of(scenery, body.name))
       shapes.push_back(part_shape(scenery, *part, body, q));
-    else if (body.kind == BodyKind::point || body.kind == BodyKind::planar || body.kind == BodyKind::rigid)
+    else if (is_free(body))
       shapes.push_back(free_shape(body, n_free++, size, roundness, q));
     else if (body.kind == BodyKind::rotor && body.radius > 0.)
       shapes.push_back(rotor_shape(scenery, body, q));

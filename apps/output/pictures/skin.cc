@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <unordered_map>
 
 namespace gestell::apps
@@ -24,37 +23,57 @@ Vector3d normal(const Skin &skin, const std::array<int, 3> &t)
 /// The plane of a face, roughly: where it looks, and its distance from the origin.
 using Plane = std::array<long, 4>;
 
-/// The planes of the faces around every point: one inside a plane, two on an edge, three at a corner.
-std::vector<std::set<Plane>> planes_of(const Skin &skin, double tolerance)
+/// The grid cell of a point and the numbers of the planes of the faces around it, ascending: one inside a plane, two on
+/// an edge, three at a corner.
+using GroupKey = std::vector<long>;
+
+struct KeyHash
 {
-  std::vector<std::set<Plane>> planes(skin.points.size());
+  std::size_t operator()(const GroupKey &key) const
+  {
+    std::size_t hash = 0;
+    for (const long number : key)
+      hash = (hash ^ std::size_t(number)) * 0x9E3779B97F4A7C15u + (hash >> 29u); // odd, from the golden ratio
+    return hash;
+  }
+};
+
+std::vector<GroupKey> keys_of(const Skin &skin, double edge)
+{
+  constexpr std::size_t cell = 3, usual = 6; // numbers of a cell, and of a key with three planes
+  std::vector<GroupKey> keys(skin.points.size());
+  for (std::size_t i = 0; i < keys.size(); ++i)
+  {
+    keys[i].reserve(usual);
+    for (const double x : skin.points[i])
+      keys[i].push_back(std::lround(x / edge));
+  }
+  std::map<Plane, long> numbers;
+  const double          tolerance = 0.25 * edge;
   for (const auto &t : skin.triangles)
   {
-    const Vector3d n     = normal(skin, t);
-    const double   level = n.dot(skin.points[t[0]]);
-    const Plane    plane = {std::lround(2. * n[0]), std::lround(2. * n[1]), std::lround(2. * n[2]),
-                            std::lround(level / tolerance)};
+    const Vector3d n      = normal(skin, t);
+    const double   level  = n.dot(skin.points[t[0]]);
+    const Plane    plane  = {std::lround(2. * n[0]), std::lround(2. * n[1]), std::lround(2. * n[2]),
+                             std::lround(level / tolerance)};
+    const long     number = numbers.try_emplace(plane, long(numbers.size())).first->second;
     for (const int i : t)
-      planes[i].insert(plane);
+      if (GroupKey &own = keys[i]; std::find(own.begin() + cell, own.end(), number) == own.end())
+        own.push_back(number);
   }
-  return planes;
+  for (GroupKey &own : keys)
+    std::sort(own.begin() + cell, own.end());
+  return keys;
 }
 
-/// Group number of every point, in order of first occurrence: one group has one grid cell and the same planes.
+/// Group number of every point, in order of first occurrence: one group has one key.
 std::vector<int> groups_of(const Skin &skin, double edge)
 {
-  using Key         = std::pair<std::array<long, 3>, std::set<Plane>>;
-  const auto planes = planes_of(skin, 0.25 * edge);
-
-  std::map<Key, int> numbers;
-  std::vector<int>   group;
+  std::unordered_map<GroupKey, int, KeyHash> numbers;
+  std::vector<int>                           group;
   group.reserve(skin.points.size());
-  for (std::size_t i = 0; i < skin.points.size(); ++i)
-  {
-    const Vector3d place = skin.points[i] / edge;
-    const Key      key   = {{std::lround(place[0]), std::lround(place[1]), std::lround(place[2])}, planes[i]};
-    group.push_back(numbers.emplace(key, static_cast<int>(numbers.size())).first->second);
-  }
+  for (GroupKey &key : keys_of(skin, edge))
+    group.push_back(numbers.try_emplace(std::move(key), static_cast<int>(numbers.size())).first->second);
   return group;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/output/text/csv.h"
 
+#include "apps/output/text/number_rows.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -19,14 +20,7 @@ std::string csv_field(const std::string &text)
 
 void CsvTable::add_rows(const std::vector<double> &numbers)
 {
-  const std::size_t width = columns_;
-  text_.reserve(text_.size() + 20 * numbers.size()); // 17 digits, sign, point, separator
-  for (std::size_t i = 0; width > 0 && i + width <= numbers.size(); i += width)
-  {
-    for (std::size_t j = 0; j < width; ++j)
-      number(numbers[i + j]);
-    text_.back() = '\n';
-  }
+  write_number_rows(numbers, columns_, [this](const char *piece, std::size_t length) { text_.append(piece, length); });
 }
 
 void CsvTable::number(double x)

@@ -127,8 +127,9 @@ template <class Visitor>
 void describe(Visitor &v, const Result &x)
 {
   // A result without a run has no signals, but has all members, so that readers need no case distinction.
-  const coupling::RunResult run         = x.run.value_or(coupling::RunResult());
-  const auto                frequencies = [](const std::vector<coupling::Mode> &modes, double coupling::Mode::*of)
+  static const coupling::RunResult none;
+  const coupling::RunResult       &run = x.run ? *x.run : none;
+  const auto frequencies               = [](const std::vector<coupling::Mode> &modes, double coupling::Mode::*of)
   {
     std::vector<double> f;
     for (const coupling::Mode &mode : modes)
@@ -171,7 +172,7 @@ void describe(Visitor &v, const Result &x)
   v("accuracy", run.accuracy, "",
     "what the method with its fixed step makes of each mode; empty with a controlled step");
   v("work", run.work, "", "of the integration");
-  v("wall_s", x.wall_s, "s", "by phase");
+  v("wall_s", x.wall_s, "s", "by phase; `program`: CPU time until the scene is read");
   v("energy", keeps_energy ? std::optional(run.energy) : std::nullopt, "", "null: no balance was kept");
   v("warnings", all_warnings(x), "", "texts of all findings");
   v("findings", all_findings(x), "", "warnings, and why a run stopped early");

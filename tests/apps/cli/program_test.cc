@@ -4,6 +4,10 @@
 #include "tests/support/scene_parts.h"
 #include "tests/support/test.h"
 
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+
 namespace gestell::tests
 {
 namespace
@@ -21,6 +25,24 @@ TEST(Program, RunLeavesEveryFileOfTheContract)
   for (const char *key : {"\"scene\"", "\"version\"", "\"model\"", "\"frequencies_hz\"", "\"signals\"", "\"events\"",
                           "\"work\"", "\"wall_s\"", "\"energy\"", "\"residual\"", "\"warnings\"", "\"conrod_open\""})
     EXPECT_NE(summary.find(key), std::string::npos) << key;
+}
+
+/// Loading, reading and writing included; the rest is the shell, the last file and the end of the process.
+TEST(Program, PhasesOfARunAddUpToItsTime)
+{
+  const Folder folder("phases");
+  const auto   begin = std::chrono::steady_clock::now();
+  expect_answer(gestell("run " + scene("press_minimal.toml") + folder.option()), 0, {"report.html"});
+  const double      whole   = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const std::string summary = read(folder.results() / "summary.json");
+  const auto        phases  = nlohmann::json::parse(summary)["wall_s"];
+  double            sum     = 0.;
+  for (const char *phase : {"program", "scene", "frame", "start", "modes", "integration", "results", "analyses",
+                            "earlier results", "tables", "report", "ParaView files"})
+    sum += phases.at(phase).get<double>();
+  EXPECT_EQ(phases.size(), 12u);
+  EXPECT_LT(sum, whole);
+  EXPECT_GT(sum, 0.5 * whole);
 }
 
 TEST(Program, ModesAndCheckWorkWithoutARun)

@@ -1,6 +1,7 @@
 // Forces in ParaView's files keep every body in equilibrium with its weight and its inertia (d'Alembert).
 
 #include "apps/output/paraview/force_files.h"
+#include "apps/output/pictures/chosen_pictures.h"
 #include "apps/session/forces/acting_forces.h"
 #include "apps/session/session.h"
 #include "tests/support/scene_run.h"
@@ -135,7 +136,7 @@ TEST_P(ForcesOnBodies, WithWeightAreMassTimesAcceleration)
   const Result             result = session.run();
   std::vector<std::string> files;
   OwnFolder                own(folder);
-  write_force_files(own, result, files);
+  write_force_files(own, result, chosen_pictures(result, result.run->picture_times.size()), files);
   ASSERT_GT(files.size(), 10u);
   ASSERT_EQ(files.size(), result.run->picture_times.size() + 1); // and forces.pvd
   const auto  smooth = smooth_pictures(result);
@@ -210,7 +211,7 @@ TEST_P(ForcesOnTheFrame, AreWhatItsMassesSpringsAndDampersAnswer)
   const Result             result = session.run();
   std::vector<std::string> files;
   OwnFolder                own(folder);
-  write_force_files(own, result, files);
+  write_force_files(own, result, chosen_pictures(result, result.run->picture_times.size()), files);
   const auto  smooth = smooth_pictures(result);
   const auto &scene  = session.scene();
   for (const char *name : {"frame.crown", "frame.table"})

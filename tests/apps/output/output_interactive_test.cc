@@ -2,6 +2,7 @@
 #include "apps/output/interactive/machine_animation.h"
 #include "apps/output/interactive/page_scripts.h"
 #include "apps/output/interactive/short_motion.h"
+#include "apps/output/pictures/chosen_pictures.h"
 #include "apps/output/pictures/mechanism_shapes.h"
 #include "apps/output/tables/noise.h"
 #include "apps/output/text/base64.h"
@@ -112,8 +113,8 @@ TEST(Noise, IsBelowABillionthOfTheLargestOfItsUnit)
   EXPECT_EQ(noise.without("rad", 1e-30), 1e-30);
 }
 
-/// The stroke as it was asked for ends in the last picture, and what it is looked at for is its peak.
-TEST(AnimationInstants, HoldTheEndAndTheMainPeak)
+/// A run of 1000 pictures at 0, 1, ... ms, each of which has its number as its coordinates.
+Result numbered_pictures()
 {
   Result               result = example_result();
   coupling::RunResult &run    = *result.run;
@@ -123,17 +124,46 @@ TEST(AnimationInstants, HoldTheEndAndTheMainPeak)
     run.picture_times.push_back(1e-3 * i);
     run.picture_states.push_back(Eigen::Vector4d::Constant(i));
   }
+  return result;
+}
+
+/// The stroke as it was asked for ends in the last picture, and what it is looked at for is its peak.
+TEST(AnimationInstants, HoldTheEndAndTheMainPeak)
+{
+  Result result                = numbered_pictures();
   result.peak                  = PeakState{"F_P", "N", 1e6, 0.2341, Eigen::Vector4d::Constant(234.1)};
   const AnimationInstants seen = animation_instants(result, 200);
-  ASSERT_EQ(seen.times.size(), 202u); // each fifth, the last, the peak
-  EXPECT_EQ(seen.times.back(), run.picture_times.back());
+  ASSERT_EQ(seen.times.size(), 201u); // those chosen, and the peak
+  EXPECT_EQ(seen.times.back(), result.run->picture_times.back());
   EXPECT_EQ(seen.states.back()[0], 999.);
   const auto peak = std::find(seen.times.begin(), seen.times.end(), 0.2341);
   ASSERT_NE(peak, seen.times.end());
   EXPECT_EQ(seen.states[std::size_t(peak - seen.times.begin())][0], 234.1);
   EXPECT_TRUE(std::is_sorted(seen.times.begin(), seen.times.end()));
-  result.peak->t = run.picture_times[235]; // a picture that stays anyway
-  EXPECT_EQ(animation_instants(result, 200).times.size(), 201u);
+  result.peak->t = result.run->picture_times[237]; // a picture itself
+  EXPECT_EQ(animation_instants(result, 200).times.size(), 200u);
+}
+
+/// Wherever the peak lies, at the ends too: as many as asked for, at most a stride and the peak's shift apart.
+TEST(ChosenPictures, AreEvenWithTheEndsAndThePeak)
+{
+  Result result = numbered_pictures();
+  for (const std::size_t peak : {0u, 1u, 5u, 237u, 994u, 998u, 999u})
+  {
+    result.peak       = PeakState{"F_P", "N", 1e6, result.run->picture_times[peak], {}};
+    const auto chosen = chosen_pictures(result, 100);
+    ASSERT_EQ(chosen.size(), 100u);
+    EXPECT_EQ(chosen.front(), 0u);
+    EXPECT_EQ(chosen.back(), 999u);
+    EXPECT_TRUE(std::binary_search(chosen.begin(), chosen.end(), peak)) << peak;
+    for (std::size_t i = 1; i < chosen.size(); ++i)
+    {
+      EXPECT_GT(chosen[i], chosen[i - 1]) << peak;
+      EXPECT_LE(chosen[i] - chosen[i - 1], 2u * 11u) << peak; // 999 / 99, rounded up, twice beside the peak
+    }
+  }
+  EXPECT_EQ(chosen_pictures(result, 1000).size(), 1000u);
+  EXPECT_EQ(chosen_pictures(result, 2000).back(), 999u);
 }
 
 /// Constant speed is straight at whatever instants; a circle of 90 degrees a step is not.

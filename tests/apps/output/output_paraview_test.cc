@@ -144,6 +144,9 @@ TEST_F(ParaviewFiles, CoupledModesMoveFrameAndBodiesTogetherTheLargestByATwentie
   result.modes_at = result.run->picture_states.front();
   result.coupled_modes.front().shape << 2e-2, 0., 0., 1e-2; // the top sways twice as far as the slide slides
   write_paraview(folder, result, names);
+  EXPECT_FALSE(fs::exists(folder / "coupled_modes.pvd")); // of a run: its page shows them
+  result.run.reset();
+  write_paraview(folder, result, names);
   const auto sets = data_sets("coupled_modes.pvd");
   ASSERT_EQ(sets.size(), 2u);
   const auto largest = [](vtkPolyData *part)
@@ -191,6 +194,51 @@ TEST_F(ParaviewFiles, VelocitiesAreThoseOfThePointsOfFrameAndBodies)
     }
   }
   EXPECT_NEAR(rim, 10. * 0.3, 0.1);
+}
+
+/// More on request: `output.allow_large`.
+TEST_F(ParaviewFiles, MotionIsAHundredPicturesUnlessLargeResultsAreAllowed)
+{
+  Result                        result = example_result();
+  gestell::coupling::RunResult &run    = *result.run;
+  run.picture_times.clear();
+  for (int k = 0; k < 250; ++k)
+    run.picture_times.push_back(1e-3 * k);
+  run.picture_states.assign(250, run.picture_states.front());
+  result.requested.run = gestell::coupling::RunOptions();
+  write_paraview(folder, result, names);
+  const auto sets = data_sets("motion.pvd");
+  ASSERT_EQ(sets.size(), 200u); // frame and mechanism
+  EXPECT_EQ(std::get<0>(sets.front()), 0.);
+  EXPECT_EQ(std::get<0>(sets.back()), 0.249);
+  EXPECT_TRUE(fs::exists(folder / "motion/frame_00099.vtp"));
+
+  result.requested.run->allow_large = true;
+  write_paraview(folder, result, names);
+  EXPECT_EQ(data_sets("motion.pvd").size(), 500u);
+}
+
+/// A skin of 40 000 points, as of a large frame: a picture takes 2 MB.
+TEST_F(ParaviewFiles, MotionOfALargeFrameTakesAtMost20Megabytes)
+{
+  Result                        result = example_result();
+  gestell::coupling::RunResult &run    = *result.run;
+  result.frame_modes.clear();
+  result.scenery.points.assign(40000, {0., 0., 0.});
+  result.scenery.triangles.assign(40000, {0, 1, 2});
+  result.scenery.displacement = [](const Eigen::VectorXd &p) -> Eigen::VectorXd
+  { return Eigen::VectorXd::Constant(120000, p(0)); };
+  run.picture_times.clear();
+  for (int k = 0; k < 30; ++k)
+    run.picture_times.push_back(1e-3 * k);
+  run.picture_states.assign(30, run.picture_states.front());
+  run.picture_velocities.assign(30, Eigen::VectorXd::Zero(4));
+  write_paraview(folder, result, names);
+  double bytes = 0.;
+  for (const auto &file : fs::directory_iterator(folder / "motion"))
+    bytes += double(fs::file_size(file));
+  EXPECT_LT(bytes, 20e6);
+  EXPECT_GT(bytes, 16e6); // one picture more would be too many
 }
 
 TEST_F(ParaviewFiles, TheMacroBeginsAtTheMainPeak)

@@ -10,7 +10,7 @@ TEST(Spectra, OfACosineIsItsAmplitudeAndHalfOfItBeside)
   std::vector<double> y;
   for (int j = 0; j < 1024; ++j)
     y.push_back(5. + 3. * std::cos(2. * M_PI * 37. * j / 1024.));
-  const std::vector<double> a = hann_amplitudes(y);
+  const std::vector<double> a = HannSpectrum(y.size()).amplitudes(y);
   ASSERT_EQ(a.size(), 513u);
   EXPECT_NEAR(a[37], 3., 1e-12);
   EXPECT_NEAR(a[36], 1.5, 1e-12);
@@ -25,7 +25,7 @@ TEST(Spectra, OfWhatTurnsItsSignFromRowToRowAreItsAmplitude)
   std::vector<double> y;
   for (int j = 0; j < 1024; ++j)
     y.push_back(j % 2 == 0 ? 3. : -3.);
-  const std::vector<double> a = hann_amplitudes(y);
+  const std::vector<double> a = HannSpectrum(y.size()).amplitudes(y);
   EXPECT_NEAR(a[512], 3., 1e-12);
   EXPECT_NEAR(a[510], 0., 1e-12);
 }
