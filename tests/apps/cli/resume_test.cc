@@ -19,8 +19,8 @@ using Json = nlohmann::json;
 
 const std::string press = scene("press_minimal.toml") + " --set run.end=0.9 --set run.step=2e-6 --checkpoint 0.01";
 
-/// Starts the program and kills it by that signal after some time [s]; its wait status.
-int killed(const std::string &arguments, double after, int signal)
+/// Starts the program; its process.
+pid_t started(const std::string &arguments)
 {
   const pid_t child = fork();
   if (child == 0)
@@ -31,7 +31,18 @@ int killed(const std::string &arguments, double after, int signal)
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(127);
   }
-  std::this_thread::sleep_for(std::chrono::duration<double>(after));
+  return child;
+}
+
+bool is_running(pid_t child)
+{
+  siginfo_t ended = {};
+  return waitid(P_PID, child, &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0;
+}
+
+/// Sends the signal; the wait status of the process.
+int killed(pid_t child, int signal)
+{
   kill(child, signal);
   int status = 0;
   waitpid(child, &status, 0);
@@ -58,7 +69,9 @@ TEST(ResumedProgram, KilledAtRandomLeavesTheSameFiles)
   std::string                            resume;
   for (; kills < 4; ++kills)
   {
-    const int status = killed("run " + press + folder.option() + resume, seconds(random), SIGKILL);
+    const pid_t child = started("run " + press + folder.option() + resume);
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds(random)));
+    const int status = killed(child, SIGKILL);
     if (WIFEXITED(status))
       break; // it came to its end
     resume = std::filesystem::exists(folder.results() / "checkpoint.bin") ? "--resume" : "";
@@ -85,7 +98,10 @@ TEST(PeriodicCommand, SaysThatItReplacesARun)
 TEST(ResumedProgram, RefusesAnotherScene)
 {
   const Folder folder("other");
-  const int    status = killed("run " + press + folder.option(), 0.5, SIGTERM);
+  const pid_t  child = started("run " + press + folder.option());
+  while (!std::filesystem::exists(folder.results() / "checkpoint.bin") && is_running(child))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1)); // a busy machine may start the program late
+  const int status = killed(child, SIGTERM);
   ASSERT_TRUE(WIFEXITED(status));
   ASSERT_EQ(WEXITSTATUS(status), 130);
   ASSERT_TRUE(std::filesystem::exists(folder.results() / "checkpoint.bin"));

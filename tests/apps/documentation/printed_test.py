@@ -1,5 +1,6 @@
 """The comparison itself: it must find what differs, and pass over what may."""
 
+import importlib
 import os
 
 os.environ.pop("GESTELL_GMSH", None)  # as with the gmsh of the pages
@@ -29,3 +30,19 @@ assert not printed.is_printed("4 factorisations, 0.02 s", ["5 factorisations, 0.
 assert printed.is_printed("open by 112 J, ... 1 s", ["open by 112 J, which came from nowhere in 1 s"])
 assert not printed.is_printed("open by 112 J, ...", ["open by 212 J, which came from nowhere"])
 assert printed.missing("a 1\n...\nb 2\n", "a 1\nc 3\n") == ["b 2"]
+
+BUDGET = "     output         value  unit  mesh  reduction  time  total\n"
+ERRORS = "  2  F_rod.min  -495297.6  N     1151        811  0.78   1964"
+CHANGE = "F_rod  0.24 % of 1054547 N"
+assert printed.missing(BUDGET + ERRORS, BUDGET + ERRORS.replace("1151", "1082")) == [ERRORS]
+
+os.environ["GESTELL_GMSH"] = "4.13"  # other meshes
+importlib.reload(printed)
+assert not printed.missing(BUDGET + ERRORS, BUDGET + ERRORS.replace("1151", "1082").replace("5297", "7000")), "errors beside their value"
+assert printed.missing(BUDGET + ERRORS, BUDGET + ERRORS.replace("1151", "2251")) == [ERRORS]
+assert printed.missing(ERRORS, ERRORS.replace("1151", "1082")) == [ERRORS], "without the heading a result like others"
+assert printed.is_printed(CHANGE, [CHANGE.replace("0.24", "0.43")]), "per cent of a result"
+assert not printed.is_printed(CHANGE, [CHANGE.replace("0.24", "0.48")])
+assert printed.is_printed(LINE, [LINE.replace("-601644.5", "-605644.5")]), "0.7 %"
+assert not printed.is_printed(LINE, [LINE.replace("-601644.5", "-611644.5")])
+assert not printed.is_printed(LINE, [LINE.replace("0.2449125", "0.2549125")]), "times beside a large force count"
