@@ -30,6 +30,26 @@ IdealJoint::IdealJoint(const Placement &first, const Placement &second, std::vec
           "one if an equation is driven, else none");
 }
 
+namespace
+{
+
+/// a . (x_2 - x_1) with a fixed in space: the usual equation of a pin, without the general measure's overhead.
+bool is_plain(const RelativeMeasure &measure)
+{
+  return measure.form == RelativeMeasure::Form::along && measure.carrier == RelativeMeasure::Carrier::space;
+}
+
+/// Its gradient, in every `stride`-th entry.
+void set_gradient(const Vector3d &a, const MovedVector &x_1, const MovedVector &x_2, double *gradient, int stride)
+{
+  for (Eigen::Index k = 0; k < x_1.J.cols(); ++k, gradient += stride)
+    *gradient = -a.dot(x_1.J.col(k));
+  for (Eigen::Index k = 0; k < x_2.J.cols(); ++k, gradient += stride)
+    *gradient = a.dot(x_2.J.col(k));
+}
+
+} // namespace
+
 void IdealJoint::constraint(const LocalMotion &motion, const double *history, double *g, double *G) const
 {
   const int   n_c = n_constraints();
@@ -40,8 +60,15 @@ void IdealJoint::constraint(const LocalMotion &motion, const double *history, do
   for (int i = 0; i < n_c; ++i)
   {
     const Equation &equation = equations_[i];
-    const auto      s        = equation.measure.evaluate({first_, second_, x_1, x_2}, motion.u, nullptr, G + i, n_c).s;
-    g[i]                     = s - equation.offset - (equation.driven ? f : 0.);
+    double          s        = 0.;
+    if (is_plain(equation.measure))
+    {
+      set_gradient(equation.measure.a, x_1, x_2, G + i, n_c);
+      s = equation.measure.a.dot(x_2.value - x_1.value);
+    }
+    else
+      s = equation.measure.evaluate({first_, second_, x_1, x_2}, motion.u, nullptr, G + i, n_c).s;
+    g[i] = s - equation.offset - (equation.driven ? f : 0.);
   }
 }
 
@@ -55,7 +82,9 @@ void IdealJoint::constraint_rates(const LocalMotion &motion, const double *histo
   for (int i = 0; i < n_constraints(); ++i)
   {
     const Equation &equation = equations_[i];
-    bias[i]                  = equation.measure.evaluate({first_, second_, x_1, x_2}, motion.u, motion.v, G).bias;
+    bias[i]                  = is_plain(equation.measure)
+                                   ? equation.measure.a.dot(x_2.bias - x_1.bias)
+                                   : equation.measure.evaluate({first_, second_, x_1, x_2}, motion.u, motion.v, G).bias;
     rate[i]                  = 0.;
     if (!equation.driven)
       continue;

@@ -126,8 +126,44 @@ void Placement::move(const Vector3d &arm, const double *u, const double *v, Move
   x.rate += theta_rate.cross(rho);
 }
 
+namespace
+{
+
+/// Position if the carrier does not tilt: the arm turns about n only,  rho = along + c across + s beyond.
+void turn(const Vector3d &n, const Vector3d &centre, const Vector3d &arm,
+          const std::vector<Placement::LinearMeasure> &linear, const double *u, const double *v,
+          Placement::MovedVector &x)
+{
+  const int      n_linear = int(linear.size());
+  const double   c = std::cos(u[n_linear]), s = std::sin(u[n_linear]);
+  const Vector3d along = n.dot(arm) * n, across = arm - along, beyond = n.cross(arm);
+  const Vector3d turned = c * across + s * beyond, first = c * beyond - s * across;
+  x.J.resize(3, n_linear + 1);
+  x.J.col(n_linear) = first;
+  x.value           = along + turned + centre;
+  for (int i = 0; i < n_linear; ++i)
+  {
+    x.value += u[i] * linear[i].translation;
+    x.J.col(i) = linear[i].translation;
+  }
+  if (!v)
+    return;
+  const double w = v[n_linear];
+  x.rate         = w * first;
+  x.bias         = -w * w * turned;
+  for (int i = 0; i < n_linear; ++i)
+    x.rate += v[i] * linear[i].translation;
+}
+
+} // namespace
+
 void Placement::position(const double *u, const double *v, MovedVector &x) const
 {
+  if (turns_ && !rotates_)
+  {
+    turn(n_, centre_, point_ - centre_, linear_, u, v, x);
+    return;
+  }
   move(point_ - centre_, u, v, x);
   x.value += centre_;
   for (int d = 0; free_ && d < 3; ++d)

@@ -157,6 +157,11 @@ void Bdf::find_implied(Point &point)
     return;
   present(point);
   consistent_->solve(point.q, point.v, product_, local_, work_);
+  keep_implied(point);
+}
+
+void Bdf::keep_implied(Point &point) const
+{
   point.a      = local_.a;
   point.p      = local_.p;
   point.lambda = local_.lambda;
@@ -280,8 +285,13 @@ void Bdf::multistep(double t)
   push();
   if (system_.joints().n_rows() > 0)
   {
-    if (index_ + 1 < 2 * options_.order || system_.joints().wants_multipliers())
+    if (index_ + 1 < 2 * options_.order)
       find_implied(past(0));
+    else if (consistent_ && system_.joints().wants_multipliers())
+    {
+      consistent_->find_multipliers(past(0).q, past(0).v, implicit_, local_, work_);
+      keep_implied(past(0));
+    }
   }
   else if (finds_held())
   {

@@ -82,6 +82,7 @@ private:
   bool         has_consistent();
   bool         is_implied() const; ///< some forces are not values of a law but follow from the equation of motion
   void         find_implied(Point &point);
+  void         keep_implied(Point &point) const;
   bool         finds_held() const;
   void         multistep(double t);
   void         start_value(double t);

@@ -37,7 +37,6 @@ OneStep::OneStep(const SecondOrderSystem &system, const std::string &name, doubl
     resize(*point);
   q_inside_.setZero(system.linear().size());
   v_inside_.setZero(system.linear().size());
-  a_found_.setZero(system.linear().size());
 }
 
 void OneStep::resize(Point &point) const
@@ -124,7 +123,7 @@ void OneStep::advance()
     start_.hold(end_.motion.q, end_.motion.v, end_.motion.local, work_);
   end_.keep_balance();
   if (!holds && system_.joints().n_rows() > 0 && system_.joints().wants_multipliers())
-    start_.solve(end_.motion.q, end_.motion.v, a_found_, end_.motion.local, work_);
+    start_.find_multipliers(end_.motion.q, end_.motion.v, implicit_, end_.motion.local, work_);
 }
 
 void OneStep::step_or_divide(const Point &from, double length, int halvings, Point &to)

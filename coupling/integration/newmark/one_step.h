@@ -79,7 +79,6 @@ private:
   mutable ConsistentStart start_;
   Point                   begin_, end_, cut_point_;
   mutable Eigen::VectorXd q_inside_, v_inside_;
-  Eigen::VectorXd         a_found_;
   std::vector<Point>      middle_; ///< of divided steps, by the number of halvings
   double                  t_begin_ = 0.;
   long                    index_   = 0;     ///< of the end of the last step, t = t_begin + index h

@@ -79,6 +79,11 @@ bool CondensedMatrix::factorise(const Eigen::MatrixXd &S, const Eigen::VectorXd 
   const int n_F = int(of_forces_.size()), n_c = int(S_G_.cols());
   failed_joint_ = -1;
   collect(S, tangent, held);
+  if (tangent_.empty()) // J = E, H = G S G^T
+  {
+    joints_.matrix() = G_S_G_;
+    return factorise_joints();
+  }
   Eigen::MatrixXd &J = forces_.matrix();
   J.setZero();
   for (const Entry &e : tangent_)
@@ -115,16 +120,34 @@ bool CondensedMatrix::factorise(const Eigen::MatrixXd &S, const Eigen::VectorXd 
       H(d, c) = sum;
     }
   }
-  if (joints_.factorise())
+  return factorise_joints();
+}
+
+bool CondensedMatrix::factorise_joints()
+{
+  if (joints_.matrix().size() == 0 || joints_.factorise())
     return true;
   failed_joint_ = joints_.failed();
   return false;
+}
+
+void CondensedMatrix::close_joints(Eigen::VectorXd &g, Eigen::VectorXd &a) const
+{
+  g = -g;
+  joints_.solve_in_place(g);
+  a.noalias() += S_G_.lazyProduct(g);
 }
 
 void CondensedMatrix::solve_in_place(const Eigen::MatrixXd &S, const ConstraintJacobian &G, Eigen::VectorXd &r,
                                      Eigen::VectorXd &g)
 {
   const int n_F = int(of_forces_.size()), n_c = int(S_G_.cols());
+  if (tangent_.empty())
+  {
+    G.add_product(1., r, g);
+    close_joints(g, r);
+    return;
+  }
   for (int k = 0; k < n_F; ++k)
     delta_F_[k] = r[of_forces_[k]];
   forces_.solve_in_place(delta_F_);

@@ -40,6 +40,10 @@ public:
   /// r [n_u] becomes delta, g [n_c] becomes dlambda.
   void solve_in_place(const Eigen::MatrixXd &S, const ConstraintJacobian &G, Eigen::VectorXd &r, Eigen::VectorXd &g);
 
+  /// The same without forces that depend on the motion: lambda from the g'' of lambda = 0; u'' becomes that with it.
+  /// @param g  g'', becomes lambda
+  void close_joints(Eigen::VectorXd &g, Eigen::VectorXd &a) const;
+
   /// The equation that depends on those before it.
   int failed_joint() const { return failed_joint_; }
 
@@ -53,6 +57,7 @@ private:
 
   void collect(const Eigen::MatrixXd &S, const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held);
   void times_tangent(const double *x, double *y) const;
+  bool factorise_joints();
 
   std::vector<ForceBlock> blocks_;
   std::vector<int>        of_forces_; ///< F: the measures of all blocks, one after the other

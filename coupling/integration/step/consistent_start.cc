@@ -75,7 +75,7 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
   a_free_.setZero(n_u);
   correction_.setZero(n_u);
   scale_.setZero(n_u);
-  for (Eigen::VectorXd *x : {&g_, &rate_, &bias_})
+  for (Eigen::VectorXd *x : {&g_, &rate_, &bias_, &shift_})
     x->setZero(G_.n_rows());
   try
   {
@@ -90,9 +90,12 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
   mass_->solve(f_, product_);
   if (!product_.allFinite())
     refuse_singular(system, method, "no solution exists");
-  tangent_.setZero(tangent_size(system.forces().blocks()));
+  blocks_ = system.forces().blocks();
+  tangent_.setZero(tangent_size(blocks_));
   saddle_ = SaddleMatrix::for_joints(system, joints);
-  if (!saddle_)
+  if (saddle_)
+    find_compliance();
+  else
     condense();
 }
 
@@ -114,11 +117,7 @@ void ConsistentStart::condense()
 void ConsistentStart::solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
                             IntegrationWork &work)
 {
-  system_.linear().excitation().at(local.t, f_);
-  system_.linear().damping_times(v, product_);
-  f_ -= product_;
-  system_.linear().stiffness_times(q, product_);
-  f_ -= product_;
+  set_load(local.t, q, v);
   mass_->solve(f_, a);
   ++work.solves;
   if (saddle_)
@@ -131,6 +130,87 @@ void ConsistentStart::solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, 
   a_free_.noalias() = system_.forces().directions().transpose() * a;
   iterate(local, work);
   a.noalias() += Y_.lazyProduct(local.p);
+}
+
+/// f = f_t - B q' - C q
+void ConsistentStart::set_load(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  system_.linear().excitation().at(t, f_);
+  system_.linear().damping_times(v, product_);
+  f_ -= product_;
+  system_.linear().stiffness_times(q, product_);
+  f_ -= product_;
+}
+
+void ConsistentStart::find_multipliers(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step,
+                                       LocalState &local, IntegrationWork &work)
+{
+  const auto known = [&]
+  {
+    if (!linear_ || !step_is_near_ || !system_.forces().held().empty() || system_.forces().need_multipliers())
+      return false;
+    system_.forces().tangent_blocks(local, 0., 0., 1., local.p, tangent_);
+    ++work.evaluations;
+    if (!tangent_.isZero(0.) || !local.p.allFinite())
+      return false;
+    system_.joints().rates(local, rate_, bias_);
+    if (!saddle_)
+      follow(q, v, step.jacobian(), local);
+    return !saddle_ || follow_sparse(q, v, step, local, work);
+  };
+  if (!known())
+    solve(q, v, a_, local, work);
+}
+
+/// D p of the elements alone: most of their forces are zero.
+void ConsistentStart::add_forces(const Eigen::VectorXd &p, Eigen::VectorXd &a) const
+{
+  for (const ForceBlock &block : blocks_)
+    for (int j = block.first_measure; j < block.first_measure + block.n_measures; ++j)
+      if (p[j] != 0.)
+        a.noalias() += p[j] * D_.col(j);
+}
+
+/// u''_free = Y^T (f_t - B q' - C q) by tables, and lambda from (4) of docs/theory/joints.md; the bias
+/// of the joints is in bias_.
+void ConsistentStart::follow(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ConstraintJacobian &G,
+                             LocalState &local)
+{
+  const Excitation &excitation = system_.linear().excitation();
+  if (Y_B_.size() == 0)
+    tabulate();
+  if (!load_known_ || !excitation.is_constant())
+  {
+    excitation.at(local.t, f_);
+    a_load_.noalias() = Y_.transpose() * f_;
+    load_known_       = true;
+  }
+  local.a = a_load_;
+  local.a.noalias() -= Y_B_ * v;
+  local.a.noalias() -= Y_C_ * q;
+  add_forces(local.p, local.a);
+  matrix_->set_joints(D_, G);
+  factorise(local.t);
+  g_ = bias_;
+  G.add_product(1., local.a, g_);
+  matrix_->close_joints(g_, local.a);
+  local.lambda = g_;
+  G.set_forces(local.lambda, local.p);
+}
+
+/// Y^T B and Y^T C by columns: few rows and many columns.
+void ConsistentStart::tabulate()
+{
+  Y_B_.setZero(Y_.cols(), Y_.rows());
+  Y_C_.setZero(Y_.cols(), Y_.rows());
+  for (Eigen::Index j = 0; j < Y_.cols(); ++j)
+  {
+    f_ = Y_.col(j);
+    system_.linear().damping_times(f_, product_);
+    Y_B_.row(j) = product_;
+    system_.linear().stiffness_times(f_, product_);
+    Y_C_.row(j) = product_;
+  }
 }
 
 void ConsistentStart::factorise(double t)
@@ -161,6 +241,8 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
 {
   if (G_.n_rows() == 0)
     return;
+  shift_.setZero();
+  step_is_near_             = true;
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   double           open     = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration)

@@ -8,6 +8,7 @@
 namespace gestell::coupling
 {
 
+class ImplicitStep;
 class StateArchive;
 
 /// Sets the rates of sticking measures in v [n] to those of sticking, free of rounding, so that a motion released there
@@ -46,6 +47,17 @@ public:
   void solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
              IntegrationWork &work);
 
+  /// The multipliers, forces and u'' at the end of a step, as solve() computes them, written into local.  Almost
+  /// everything is known there: G from the step, lambda from its formula.  Condensed, u'' follows from tables.
+  /// Sparse, the step's own factor corrects lambda until
+  ///
+  ///     g'' = G u'' + bias,     M a = f_t + W p - B q' - C q
+  ///
+  /// is zero up to rounding; one correction is usual, because A differs from M by terms of the order of h.  If these
+  /// are large, if something sticks, or if a force depends on u'' or on multipliers, solve() is called.
+  void find_multipliers(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step, LocalState &local,
+                        IntegrationWork &work);
+
   /// Writes the forces of sticking measures, for which u'' = 0, into local.p, at any instant of a motion.  The result
   /// is that of solve(); without joints and without forces that depend on u'' it needs only one product per sticking
   /// measure:
@@ -67,31 +79,47 @@ private:
   static constexpr double converged        = 1e-12; ///< correction of u'', relative to the terms of its sum
   static constexpr int    max_iterations   = 25;
   static constexpr int    most_by_friction = 8 * max_iterations; ///< with friction in joints: linear convergence
+  static constexpr int    most_corrections = 4; ///< by the step's factor: more cost as much as a factor of M
 
   int               most_iterations() const;
   [[noreturn]] void fail_unconverged(double t) const; ///< g_ is the last change of the multipliers
   void              factorise(double t);
   void              move(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
   bool              is_small(const Eigen::VectorXd &p);
-  void              iterate(LocalState &local, IntegrationWork &work);
-  void              prepare_hold(double t);
-  void              condense();
-  void              iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work);
-  void              factorise_sparse(double t);
-  void              move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
-  double            largest_acceleration(const Eigen::VectorXd &p);
+  void              set_load(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
+  void              add_forces(const Eigen::VectorXd &p, Eigen::VectorXd &a) const;
+  void              tabulate();
+  void   follow(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ConstraintJacobian &G, LocalState &local);
+  bool   follow_sparse(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step, LocalState &local,
+                       IntegrationWork &work);
+  bool   is_closed(const ConstraintJacobian &G, const LocalState &local) const;
+  void   iterate(LocalState &local, IntegrationWork &work);
+  void   prepare_hold(double t);
+  void   condense();
+  void   find_compliance();
+  void   iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work);
+  void   factorise_sparse(double t);
+  void   move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
+  double largest_acceleration(const Eigen::VectorXd &p);
 
   const SecondOrderSystem         &system_;
   std::unique_ptr<LinearSolver>    mass_;
   Eigen::MatrixXd                  Y_, D_; // Y = M^-1 W [n x n_u]
   Eigen::VectorXd                  f_, product_, a_free_, correction_, scale_;
   ConstraintJacobian               G_;
-  Eigen::VectorXd                  g_, rate_, bias_;          // [n_c]
-  Eigen::VectorXd                  tangent_;                  ///< dp/du'' by blocks
-  std::unique_ptr<CondensedMatrix> matrix_;                   ///< null: sparse
-  std::unique_ptr<SaddleMatrix>    saddle_;                   ///< null: condensed
-  Eigen::VectorXd                  y_, load_;                 ///< [n + n_c + n_h], [n]
-  bool                             linear_ = true;            ///< no force has depended on u'' or multipliers so far
+  Eigen::VectorXd                  g_, rate_, bias_; // [n_c]
+  Eigen::VectorXd                  tangent_;         ///< dp/du'' by blocks
+  std::unique_ptr<CondensedMatrix> matrix_;          ///< null: sparse
+  std::unique_ptr<SaddleMatrix>    saddle_;          ///< null: condensed
+  Eigen::VectorXd                  y_, load_;        ///< [n + n_c + n_h], [n]
+  bool                             linear_ = true;   ///< no force has depended on u'' or multipliers so far
+  std::vector<ForceBlock>          blocks_;
+  Eigen::MatrixXd                  Y_B_, Y_C_;          ///< Y^T B, Y^T C [n_u x n]; empty until needed
+  Eigen::VectorXd                  a_load_;             ///< [n_u] Y^T f_t
+  bool                             load_known_ = false; ///< a_load_ is, of a constant load
+  Eigen::VectorXd                  compliance_;         ///< [n_u] diagonal of D; empty: condensed
+  Eigen::VectorXd                  shift_; ///< [n_c] from the multipliers of the formula to those of g'' = 0
+  bool                             step_is_near_ = true;      ///< the step's factor has corrected multipliers so far
   std::vector<int>                 holding_;                  ///< measures for which hold_f_ to delassus_ are computed
   Eigen::MatrixXd                  hold_f_, hold_v_, hold_q_; ///< M^-1 W_h, B M^-1 W_h, C M^-1 W_h [n x n_h]
   Eigen::VectorXd                  held_p_, a_;               ///< [n_h], [n]

@@ -105,4 +105,67 @@ void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, Inte
   fail_unconverged(local.t);
 }
 
+void ConsistentStart::find_compliance()
+{
+  const auto &W = system_.forces().directions();
+  compliance_.setZero(W.cols());
+  for (int j = 0; j < W.cols(); ++j)
+  {
+    f_ = W.col(j);
+    mass_->solve(f_, product_);
+    compliance_[j] = W.col(j).dot(product_);
+  }
+}
+
+/// Whether g'' in g_ is zero up to rounding: of G u'' and of the accelerations whose sum u'' is.
+bool ConsistentStart::is_closed(const ConstraintJacobian &G, const LocalState &local) const
+{
+  const double largest =
+      std::max(local.a.cwiseAbs().maxCoeff(), compliance_.cwiseProduct(local.p).cwiseAbs().maxCoeff());
+  for (std::size_t b = 0; b < G.blocks().size(); ++b)
+    for (int i = 0; i < G.blocks()[b].n_rows; ++i)
+    {
+      const int row = G.blocks()[b].first_row + i;
+      if (!(std::abs(g_[row]) <= converged * (std::abs(bias_[row]) + G[b].row(i).lpNorm<1>() * largest)))
+        return false;
+    }
+  return true;
+}
+
+/// The bias of the joints is in bias_.
+bool ConsistentStart::follow_sparse(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step,
+                                    LocalState &local, IntegrationWork &work)
+{
+  const auto               &W = system_.forces().directions();
+  const SaddleMatrix       &K = *step.saddle();
+  const ConstraintJacobian &G = step.jacobian();
+  set_load(local.t, q, v);
+  y_.resize(K.size());
+  rate_ = local.lambda;
+  local.lambda += shift_;
+  for (int correction = 0; K.has_factor() && correction <= most_corrections; ++correction)
+  {
+    G.set_forces(local.lambda, local.p);
+    load_ = f_;
+    load_.noalias() += W * local.p;
+    mass_->solve(load_, product_);
+    local.a.noalias() = W.transpose() * product_;
+    g_                = bias_;
+    G.add_product(1., local.a, g_);
+    if (is_closed(G, local))
+    {
+      shift_ = local.lambda - rate_;
+      return true;
+    }
+    y_.setZero();
+    y_.segment(product_.size(), g_.size()) = -g_;
+    K.solve_in_place(y_);
+    ++work.solves;
+    local.lambda += y_.segment(product_.size(), g_.size());
+  }
+  local.lambda  = rate_;
+  step_is_near_ = false;
+  return false;
+}
+
 } // namespace gestell::coupling

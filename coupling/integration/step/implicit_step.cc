@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -72,7 +73,8 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
     options_.share_of_error *= share_of_joints;
     most_left_ *= share_of_joints;
     // Friction by multipliers lags one iteration behind them, with little effect on the motion.
-    if (system.forces().need_multipliers())
+    turn_counts_ = !system.forces().need_multipliers();
+    if (!turn_counts_)
       options_.share_of_error = 0.;
   }
   const int n_u = static_cast<int>(system.forces().directions().cols());
@@ -235,7 +237,8 @@ double ImplicitStep::remaining(int iteration, double size, double size_before)
 /// In the first iteration the share of the largest correction applies to all measures.
 bool ImplicitStep::is_converged(int iteration, double size, double remaining) const
 {
-  if (remaining <= options_.tolerance)
+  constexpr double below_rounding = std::numeric_limits<double>::epsilon(); // of positions: what the turn leaves behind
+  if (remaining <= options_.tolerance || (turn_counts_ && remaining * remaining <= below_rounding * size))
     return true;
   if (!good_predictions_ || remaining > most_left_)
     return false;
@@ -289,6 +292,7 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
   const bool      joints      = G_.n_rows() > 0;
   bool            turned      = joints; // G has, since Newton's matrix got it
   double          size_before = 0.;
+  bool            went_on     = false; // behind the turn
   note_form(form);
   singular_ = joints_singular_ = false;
   for (const HeldMeasure &h : held)
@@ -326,19 +330,26 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     }
     const double size    = size_of_correction();
     const double damping = damping_of(iteration, size, size_before);
+    if (iteration == 0 && good_predictions_)
+      first_correction_ = correction_;
     xi_.noalias() += damping * correction_;
     if (joints)
       local.lambda += damping * g_;
-    if (damping == 1. && is_converged(iteration, size, remaining(iteration, size, size_before)))
+    if (std::exchange(went_on, false)) // two corrections lie between
+      size_before = std::sqrt(size_before * size);
+    const double left = remaining(iteration, size, size_before);
+    if (damping == 1. && is_converged(iteration, size, left))
     {
       finish(form, base, local);
-      if (joints && size > turned_little)
-        follow_turn(condensed, base, local);
-      return true;
+      if (!joints || size <= turned_little)
+        return true;
+      follow_turn(condensed, base, local);
+      if (ends_at_turn(iteration, size, left))
+        return true;
+      went_on = true;
     }
-    if (iteration == 0 && good_predictions_)
-      first_correction_ = correction_;
-    turned      = joints && iteration > 0 && size > good_contraction * size_before;
+    turned      = joints && (went_on ? size_of_correction() > good_contraction * size
+                                     : iteration > 0 && size > good_contraction * size_before);
     size_before = size;
   }
   return false;

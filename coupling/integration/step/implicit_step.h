@@ -53,7 +53,10 @@ struct StepForm
  *     (I - S p') delta - S G^T d_lambda = xi_free + S p - xi,     w_u G delta = -g.
  *
  * It neglects the change of G within a step while corrections contract: lambda g'' is of the order of h^2 lambda/m
- * compared with 1.
+ * compared with 1.  The last correction of a step with joints, the turn, evaluates forces and joints where Newton's
+ * correction led and uses its factors once more.  It counts in the stopping rule: if a correction of size s contracts
+ * by theta, the turn is of the size theta s and leaves theta^2 s.  One factorisation is then usual, and the turn
+ * measures theta in every step: if it leaves more than the rounding of positions, Newton's iteration goes on.
  *
  * One factorisation of A and n_u solves per StepForm are needed; they are cached.
  *
@@ -83,6 +86,10 @@ public:
 
   /// Whether solve() also needs a prediction of the whole x.
   bool is_sparse() const { return saddle_ != nullptr; }
+  /// Newton's matrix of the last step, factorised; null if it is condensed.
+  const SaddleMatrix *saddle() const { return saddle_.get(); }
+  /// G where the last step evaluated the joints last: its end but for the last correction, of the size of rounding.
+  const ConstraintJacobian &jacobian() const { return G_; }
 
   /// Solves for x [n].  On entry local.u contains the prediction, local.p that of sticking measures, local.lambda that
   /// of joints; base contains u_0, v_0, a_0 and the time t.  On return local is the solution.  If is_sparse(), the
@@ -141,6 +148,7 @@ private:
   double size_of_correction() const;
   void   note_form(const StepForm &form);
   double remaining(int iteration, double size, double size_before);
+  bool   ends_at_turn(int iteration, double size, double expected);
   bool   is_converged(int iteration, double size, double remaining) const;
   void   motion(const StepForm &form, const LocalState &base, LocalState &local) const;
   [[noreturn]] void fail(double t) const;
@@ -159,6 +167,7 @@ private:
   std::unique_ptr<SaddleMatrix>    saddle_;            ///< null: condensed
   Eigen::VectorXd                  y_;                 ///< [n + n_c + n_h] residual, then correction
   bool                             good_predictions_ = false;
+  bool                             turn_counts_      = false; ///< in the stopping rule
   double                           most_left_;      ///< of the excursion of a measure, if share_of_error is used
   double                           contraction_;    ///< of Newton's corrections, last measured in steps of this form
   double                           form_time_ = 0.; ///< of this form [s]

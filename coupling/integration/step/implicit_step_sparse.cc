@@ -1,6 +1,7 @@
 #include "coupling/integration/step/implicit_step.h"
 
-#include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -59,6 +60,7 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
 {
   const auto n = x.size(), n_c = Eigen::Index(G_.n_rows());
   double     size_before = 0.;
+  bool       went_on     = false; // behind the turn
   singular_ = joints_singular_ = false;
   note_form(form);
   saddle_->hold(system_.forces().held());
@@ -84,18 +86,27 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
     grow_scale(form, local, true);
     const double size    = size_of_correction();
     const double damping = damping_of(iteration, size, size_before);
+    if (iteration == 0 && good_predictions_)
+      first_correction_ = correction_;
     x += damping * y_.head(n);
     local.lambda += (damping / form.force) * y_.segment(n, n_c);
     find_measures(x, form, base);
-    if (iteration > 0 && size_before > 0.)
-      contraction_ = std::clamp(size / size_before, 1e-4, 1.);
-    const double remaining = contraction_ < 1. ? size * contraction_ / (1. - contraction_) : size;
-    if (damping == 1. && (size <= options_.tolerance || remaining <= options_.tolerance))
+    if (std::exchange(went_on, false)) // two corrections lie between
+      size_before = std::sqrt(size_before * size);
+    const double left = remaining(iteration, size, size_before);
+    if (damping == 1. && is_converged(iteration, size, left))
     {
       finish(form, base, local);
-      return size <= turned_little || follow_turn_sparse(form, f, base, x, local);
+      if (size <= turned_little)
+        return true;
+      if (!follow_turn_sparse(form, f, base, x, local))
+        return false;
+      if (ends_at_turn(iteration, size, left))
+        return true;
+      went_on = true;
     }
-    if (iteration > 0 && size > good_contraction * size_before)
+    if (went_on ? size_of_correction() > good_contraction * size
+                : iteration > 0 && size > good_contraction * size_before)
       saddle_->forget_factor();
     size_before = size;
   }

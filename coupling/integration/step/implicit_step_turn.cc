@@ -50,4 +50,20 @@ bool ImplicitStep::follow_turn_sparse(const StepForm &form, const Eigen::VectorX
   return true;
 }
 
+/// Whether the turn, now in correction_, is as small as it was expected to be after a first correction of that size. As
+/// small as rounding it measures the contraction only if that is stronger than known.
+bool ImplicitStep::ends_at_turn(int iteration, double size, double expected)
+{
+  const double turn = size_of_correction();
+  if (iteration > 0 || !turn_counts_)
+    return true;
+  if (good_predictions_ && (turn > turned_little || turn < seen_ * size))
+  {
+    seen_      = turn / size;
+    seen_size_ = size;
+    unseen_    = 0;
+  }
+  return expected <= options_.tolerance || turn <= turned_little || is_converged(0, size, turn);
+}
+
 } // namespace gestell::coupling

@@ -20,7 +20,7 @@ void ImplicitStep::exchange(StateArchive &archive)
 
 void ConsistentStart::exchange(StateArchive &archive)
 {
-  archive(linear_, tangent_, a_);
+  archive(linear_, tangent_, a_, shift_, step_is_near_);
   holding_.clear();
 }
 

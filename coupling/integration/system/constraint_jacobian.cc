@@ -82,39 +82,59 @@ void ConstraintJacobian::add_product(double factor, const Eigen::VectorXd &u, Ei
   }
 }
 
+namespace
+{
+/// The columns S G_i^T [n x rows] of one joint for `rows` of its equations, n >= 4: every number of S is read once.
+/// @param S,  G  of the first measure of the joint; `stride` from column to column of G
+template <int rows>
+void columns_of_joint(const double *S, Eigen::Index n, int n_measures, const double *G, int stride, double *to)
+{
+  using Packet = Eigen::Array<double, 4, 1>;
+  for (Eigen::Index next = 0; next < n; next += 4)
+  {
+    const Eigen::Index j = std::min(next, n - 4); // the last four overlap those before
+    Packet             sum[rows];
+    for (int k = 0; k < n_measures; ++k)
+    {
+      const Packet s = Eigen::Map<const Packet>(S + n * k + j);
+      for (int r = 0; r < rows; ++r)
+        sum[r] = k == 0 ? Packet(G[r] * s) : Packet(sum[r] + G[r + stride * k] * s);
+    }
+    for (int r = 0; r < rows; ++r)
+      Eigen::Map<Packet>(to + n * r + j) = sum[r];
+  }
+}
+} // namespace
+
 void ConstraintJacobian::times_transposed(const Eigen::MatrixXd &S, Eigen::MatrixXd &product) const
 {
-  using Packet         = Eigen::Array<double, 4, 1>;
-  using In             = Eigen::Map<const Packet>;
-  using Out            = Eigen::Map<Packet>;
   const Eigen::Index n = S.rows();
   for (std::size_t i = 0; i < blocks_.size(); ++i)
   {
     const ConstraintBlock &b    = blocks_[i];
     const double          *G    = values_.data() + first_[i];
     const double          *from = S.data() + n * b.first_measure;
-    for (int r = 0; r < b.n_rows; ++r)
+    double                *to   = product.data() + n * b.first_row;
+    if (n < 4)
     {
-      double *to = product.data() + n * (b.first_row + r);
-      if (n < 4)
-      {
+      for (int r = 0; r < b.n_rows; ++r, to += n)
         for (Eigen::Index j = 0; j < n; ++j)
         {
           to[j] = 0.;
           for (int k = 0; k < b.n_measures; ++k)
             to[j] += G[r + b.n_rows * k] * from[n * k + j];
         }
-        continue;
-      }
-      for (Eigen::Index next = 0; next < n; next += 4)
-      {
-        const Eigen::Index j   = std::min(next, n - 4); // the last four overlap those before
-        Packet             sum = G[r] * In(from + j);
-        for (int k = 1; k < b.n_measures; ++k)
-          sum += G[r + b.n_rows * k] * In(from + n * k + j);
-        Out(to + j) = sum;
-      }
+      continue;
     }
+    with_rows(b.n_rows,
+              [&](const auto n_rows)
+              {
+                if constexpr (std::is_integral_v<std::remove_const_t<decltype(n_rows)>>)
+                  for (int r = 0; r < n_rows; ++r)
+                    columns_of_joint<1>(from, n, b.n_measures, G + r, n_rows, to + n * r);
+                else
+                  columns_of_joint<n_rows>(from, n, b.n_measures, G, n_rows, to);
+              });
   }
 }
 

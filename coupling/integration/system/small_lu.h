@@ -85,6 +85,10 @@ private:
       return work(std::integral_constant<int, 3>{});
     case 4:
       return work(std::integral_constant<int, 4>{});
+    case 5:
+      return work(std::integral_constant<int, 5>{});
+    case 6:
+      return work(std::integral_constant<int, 6>{});
     default:
       return work(static_cast<int>(pivot_.size()));
     }

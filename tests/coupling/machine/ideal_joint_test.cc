@@ -74,12 +74,15 @@ void expect_order(const std::string &method, double expected, const Errors &coar
   }
 }
 
-Errors pendulum_errors(const MethodOptions &method)
+/// @param wanted  the tension in every step: it is that of the motion at its end, not of the formula
+Errors pendulum_errors(const MethodOptions &method, bool wanted = false)
 {
   static const auto rows    = read_reference("dae/a01_pendulum.csv");
   Machine           machine = pendulum();
-  Errors            errors;
-  std::size_t       row = 0;
+  if (wanted)
+    machine.will_read({machine.signal("F", "rod.force")});
+  Errors      errors;
+  std::size_t row = 0;
   run(machine, Eigen::VectorXd::Zero(3), Eigen::VectorXd::Zero(3), method, 2., 0.25,
       [&](double, const Machine &m, const auto &q, const auto &v, const auto &local)
       {
@@ -101,6 +104,15 @@ TEST(IdealJoint, PendulumKeepsTheOrderInPositionVelocityAndTension)
   expect_order("BDF 3", 3., pendulum_errors(bdf(3, 5e-3)), pendulum_errors(bdf(3, 2.5e-3)));
   expect_order("generalised alpha", 2., pendulum_errors(alpha(0.8, 1e-3)), pendulum_errors(alpha(0.8, 5e-4)));
   EXPECT_LT(pendulum_errors(bdf(4, 1e-3)).q, 1e-6);
+}
+
+TEST(IdealJoint, ATensionWantedInEveryStepKeepsTheOrderToo)
+{
+  for (const int k : {1, 2})
+    expect_order("BDF " + std::to_string(k), k, pendulum_errors(bdf(k, 5e-4), true),
+                 pendulum_errors(bdf(k, 2.5e-4), true));
+  expect_order("generalised alpha", 2., pendulum_errors(alpha(0.8, 1e-3), true),
+               pendulum_errors(alpha(0.8, 5e-4), true));
 }
 
 Errors four_bar_errors(int N, const MethodOptions &method)

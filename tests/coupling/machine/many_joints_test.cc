@@ -2,6 +2,7 @@
 
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/integration/integration_methods.h"
+#include "coupling/integration/step/consistent_start.h"
 #include "mechanism/elements/dynamic_motor.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/jointed_machines.h"
@@ -239,6 +240,88 @@ TEST(ManyJoints, AStepTakesNothingFromTheHeapAndFactorsOnce)
     EXPECT_EQ(integrator->work().factorisations - work.factorisations, 100);
     EXPECT_LE(integrator->work().newton - work.newton, 300);
     EXPECT_EQ(integrator->work().solves - work.solves, integrator->work().newton - work.newton);
+  }
+}
+
+/// The machine with the force of that joint as a signal, wanted in every step.
+Machine reads_force(Machine machine, const std::string &joint)
+{
+  machine.will_read({machine.signal("F", joint + ".resultant")});
+  return machine;
+}
+
+/// A carrier so stiff that a step does not resolve it: A is far from M, and the factor of the step of no use for
+/// forces.
+Machine pendulums_on_stiff_carrier()
+{
+  MachineModel model;
+  model.set_gravity({0., -9.81, 0.});
+  const int carrier = add_planar(model, "carrier", 20., 5., {});
+  for (int i = 0; i < 3; ++i)
+    model.add_linear("mount " + std::to_string(i), {{carrier + i, 1.}}, {2e9, 1e3, 0., 0.}, "N");
+  add_planar(model, "bar", 1., 1. / 12., {0.5, 0.});
+  revolute(model, "pin", "carrier", "bar", {});
+  return Machine(std::move(model));
+}
+
+/// The forces after every step against those of the equation of motion, g'' = 0, solved afresh at the same q and q'.
+void expect_forces_of_the_motion(Machine machine, const Vector &v, MethodOptions options, JointSolver solver)
+{
+  options.newton.joints                = solver;
+  const auto                integrator = coupling::make_integrator(machine, options);
+  coupling::ConsistentStart exact(machine, "test", solver);
+  coupling::IntegrationWork work;
+  Vector                    a = v;
+  integrator->begin(0., Vector::Zero(machine.size()), v);
+  double largest = 0., worst = 0.;
+  for (int step = 0; step < 300; ++step)
+  {
+    integrator->advance();
+    coupling::Instant now = integrator->instant();
+    exact.solve(now.q, now.v, a, now.local, work);
+    largest = std::max(largest, now.local.lambda.cwiseAbs().maxCoeff());
+    worst   = std::max(worst, (now.local.lambda - integrator->local().lambda).cwiseAbs().maxCoeff());
+    EXPECT_LT((now.local.a - integrator->local().a).cwiseAbs().maxCoeff(), 1e-9 * largest) << step;
+  }
+  EXPECT_LT(worst, 1e-11 * largest); // converged to 1e-12 of the accelerations in the sum
+}
+
+TEST(ManyJoints, ForcesWantedInEveryStepAreThoseOfTheMotion)
+{
+  for (const std::string kind : {"bdf", "generalised-alpha"})
+    for (const JointSolver solver : {JointSolver::condensed, JointSolver::sparse})
+    {
+      SCOPED_TRACE(kind + (solver == JointSolver::sparse ? ", sparse" : ", condensed"));
+      const Vector v = swinging_four_bars(n_four_bar(2));
+      expect_forces_of_the_motion(reads_force(n_four_bar(2), "foot 0"), v, method(kind, 1e-3), solver);
+      expect_forces_of_the_motion(reads_force(andrews_squeezer(), "O"), Vector::Zero(21), method(kind, 1e-5), solver);
+      expect_forces_of_the_motion(reads_force(pendulums_on_stiff_carrier(), "pin"), Vector::Zero(6), method(kind, 1e-3),
+                                  solver);
+      expect_forces_of_the_motion(reads_force(driven_bars(2), "pin 0"), Vector::Zero(8), method("bdf", 1e-3), solver);
+    }
+}
+
+// A bound for Newton's iterations, not their number: a second one only where the first did not reach the tolerance.
+TEST(ManyJoints, ForcesWantedInEveryStepNeedNoSecondIterationFactorOrMemory)
+{
+  for (const JointSolver solver : {JointSolver::condensed, JointSolver::sparse})
+  {
+    Machine       machine = reads_force(n_four_bar(2), "foot 0");
+    MethodOptions options = bdf(2, 5e-4);
+    options.newton.joints = solver;
+    const auto integrator = coupling::make_integrator(machine, options);
+    const bool is_sparse  = solver == JointSolver::sparse;
+    integrator->begin(0., Vector::Zero(machine.size()), swinging_four_bars(machine));
+    for (int i = 0; i < 50; ++i)
+      integrator->advance();
+    const auto work   = integrator->work();
+    const long before = allocations;
+    for (int i = 0; i < 1000; ++i)
+      integrator->advance();
+    EXPECT_TRUE(!counts_allocations || allocations == before);
+    EXPECT_LE(integrator->work().newton - work.newton, 1100);
+    EXPECT_EQ(integrator->work().factorisations - work.factorisations, is_sparse ? 1000 : 0);
+    EXPECT_LE(integrator->work().solves - work.solves, is_sparse ? 2600 : 1000);
   }
 }
 

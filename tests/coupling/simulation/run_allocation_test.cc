@@ -1,6 +1,7 @@
 // A run takes no memory from step to step: what it needs is there before the first one.
 
 #include "mechanism/elements/cubic_spring.h"
+#include "tests/support/jointed_machines.h"
 #include "tests/support/methods.h"
 #include "tests/support/test.h"
 
@@ -44,6 +45,31 @@ long allocations_of_run(const MethodOptions &method, double end, bool energy)
   const long                needed  = allocations - before;
   EXPECT_EQ(result.failure, "");
   return needed;
+}
+
+/// Two swinging four-bars, the force of a foot as a signal.
+long allocations_of_joints(const MethodOptions &method, double end)
+{
+  Machine                   machine = tests::n_four_bar(2);
+  const Eigen::VectorXd     q       = Eigen::VectorXd::Zero(machine.size());
+  const InitialState        start{0., q, tests::swinging_four_bars(machine)};
+  RunOptions                options = tests::run_of(method, end);
+  const std::vector<Signal> signals = {machine.signal("F", "foot 0.resultant")};
+  const long                before  = allocations;
+  const RunResult           result  = simulate(machine, start, options, signals);
+  const long                needed  = allocations - before;
+  EXPECT_EQ(result.failure, "");
+  return needed;
+}
+
+TEST(Allocations, ForcesOfJointsAreNone)
+{
+  for (const std::string kind : {"bdf", "generalised-alpha"})
+  {
+    const MethodOptions method = tests::method(kind, 1e-3);
+    allocations_of_joints(method, 0.1);
+    EXPECT_EQ(allocations_of_joints(method, 0.2), allocations_of_joints(method, 0.4)) << kind;
+  }
 }
 
 using RunAllocation = ::testing::TestWithParam<MethodOptions>;
