@@ -45,7 +45,7 @@ double measured_contraction(const coupling::Machine &machine)
   for (int k = 0; k < 3; ++k) // later corrections of a good contraction are rounding
   {
     machine.forces().force(local, local.p);
-    const double next = u_free + condensed.S(0, 0) * local.p[0], correction = next - local.u[0];
+    const double next = u_free + condensed.S.own(0) * local.p[0], correction = next - local.u[0];
     ratio      = k > 0 ? std::abs(correction / before) : 0.;
     before     = correction;
     local.u[0] = next;

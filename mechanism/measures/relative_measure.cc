@@ -12,9 +12,15 @@ namespace
 using MovedVector = Placement::MovedVector;
 using Gradient    = Eigen::Map<Eigen::RowVectorXd, 0, Eigen::InnerStride<>>;
 
-void add_turn(const Vector3d &w, const MovedVector &a, Gradient &gradient)
+/// gradient += w . J of a vector on the body.  J of a free body consists of multiples of E, many of them zero.
+void add_turn(const Placement &body, const Vector3d &w, const MovedVector &a, Gradient &gradient)
 {
-  for (Eigen::Index i = 0; i < gradient.size(); ++i)
+  const bool free = gradient.size() > 0 && !body.turns() && !body.is_linear(0);
+  for (Eigen::Index i = 0; free && i < gradient.size(); i += 3)
+    if (const double c = a.J(0, i); c != 0.)
+      for (int d = 0; d < 3; ++d)
+        gradient[i + d] += c * w[d];
+  for (Eigen::Index i = 0; !free && i < gradient.size(); ++i)
     gradient[i] += w.dot(a.J.col(i));
 }
 
@@ -42,11 +48,11 @@ struct RelativeMeasure::Pair
   /// of_1 -= w . J_1, of_2 += w . J_2: gradient of w . (x_2 - x_1) at constant w.
   void add_difference(const Vector3d &w)
   {
-    for (Eigen::Index i = 0; i < of_1.size(); ++i)
-      of_1[i] -= w.dot(x_1.J.col(i));
-    for (Eigen::Index i = 0; i < of_2.size(); ++i)
-      of_2[i] += w.dot(x_2.J.col(i));
+    turn_1(-w, x_1);
+    turn_2(w, x_2);
   }
+  void turn_1(const Vector3d &w, const MovedVector &a) { add_turn(first, w, a, of_1); }
+  void turn_2(const Vector3d &w, const MovedVector &a) { add_turn(second, w, a, of_2); }
   void direction_1(const Vector3d &e, MovedVector &moved) const { first.direction(e, u_1, v_1, moved); }
   void direction_2(const Vector3d &e, MovedVector &moved) const { second.direction(e, u_2, v_2, moved); }
 
@@ -94,7 +100,7 @@ RelativeMeasure::Value RelativeMeasure::along(Pair &pair) const
   MovedVector e;
   on_first ? pair.direction_1(a, e) : pair.direction_2(a, e);
   pair.add_difference(e.value);
-  add_turn(d, e, on_first ? pair.of_1 : pair.of_2);
+  on_first ? pair.turn_1(d, e) : pair.turn_2(d, e);
   if (!pair.v_1)
     return {e.value.dot(d), 0., 0.};
   return {e.value.dot(d), e.value.dot(d_rate) + e.rate.dot(d),
@@ -106,8 +112,8 @@ RelativeMeasure::Value RelativeMeasure::square(Pair &pair) const
   MovedVector e, f;
   pair.direction_1(a, e);
   pair.direction_2(b, f);
-  add_turn(f.value, e, pair.of_1);
-  add_turn(e.value, f, pair.of_2);
+  pair.turn_1(f.value, e);
+  pair.turn_2(e.value, f);
   if (!pair.v_1)
     return {e.value.dot(f.value), 0., 0.};
   return {e.value.dot(f.value), e.rate.dot(f.value) + e.value.dot(f.rate),
@@ -147,10 +153,10 @@ RelativeMeasure::Value RelativeMeasure::angle(Pair &pair) const
                r2 = x * x + y * y;
   if (!(r2 > 0.)) // body 2 is upside down: it has no angle about this axis
     return {0., 0., 0.};
-  add_turn(Vector3d((x * f.value - y * e.value) / r2), m, pair.of_2);
-  add_turn(Vector3d((-x * e.value - y * f.value) / r2), n, pair.of_2);
-  add_turn(Vector3d((x * m.value - y * n.value) / r2), f, pair.of_1);
-  add_turn(Vector3d((-x * n.value - y * m.value) / r2), e, pair.of_1);
+  pair.turn_2(Vector3d((x * f.value - y * e.value) / r2), m);
+  pair.turn_2(Vector3d((-x * e.value - y * f.value) / r2), n);
+  pair.turn_1(Vector3d((x * m.value - y * n.value) / r2), f);
+  pair.turn_1(Vector3d((-x * n.value - y * m.value) / r2), e);
   if (!pair.v_1)
     return {std::atan2(y, x), 0., 0.};
   const auto rate_of = [](const MovedVector &c, const MovedVector &d)
@@ -172,7 +178,7 @@ RelativeMeasure::Value RelativeMeasure::spin(Pair &pair) const
       MovedVector e;
       of_second ? pair.direction_2(Vector3d::Unit(i), e) : pair.direction_1(Vector3d::Unit(i), e);
       const Vector3d w = (of_second ? 0.5 : -0.5) * a.cross(e.value);
-      add_turn(w, e, of_second ? pair.of_2 : pair.of_1);
+      of_second ? pair.turn_2(w, e) : pair.turn_1(w, e);
       sum.rate += w.dot(e.rate);
       sum.bias += w.dot(e.bias);
     }

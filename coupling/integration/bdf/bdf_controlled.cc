@@ -269,8 +269,9 @@ void BdfControlled::implicit_step(double t, double h_beta, const Eigen::VectorXd
   const StepForm                 form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
   const ImplicitStep::Condensed &condensed = implicit_.condensed(form, work_);
   implicit_.solve(condensed, f_, base_, x_, local_, work_);
+  const Eigen::MatrixXd &S = condensed.S.matrix();
   for (Eigen::Index j = 0; j < n_u_; ++j)
-    moved_[j] = condensed.S.row(j).cwiseProduct(local_.p.transpose()).cwiseAbs().maxCoeff();
+    moved_[j] = S.row(j).cwiseProduct(local_.p.transpose()).cwiseAbs().maxCoeff();
   z.head(n_)                     = h_q_ + x_;
   z.segment(n_, n_)              = h_v_ + inverse * x_;
   z.segment(2 * n_, n_u_)        = local_.u;

@@ -224,7 +224,7 @@ bool BdfControlled::is_sound(double h_beta)
 {
   const double   inverse = 1. / h_beta, squared = h_beta * h_beta;
   const StepForm form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
-  const auto    &S = implicit_.condensed(form, work_).S;
+  const auto    &S = implicit_.condensed(form, work_).S.matrix();
   dp_du_.setZero(); // sticking measures write nothing
   dp_dv_.setZero();
   point(z_begin_, t_end_, local_);
@@ -299,7 +299,7 @@ void BdfControlled::resolve_stiffness()
     if (stiffness_.size() == 0 || stiffness_.maxCoeff() == 0. || h < options_.smallest_step)
       break;
     const StepForm form{1., h, squared, squared, 1., 1. / h, 1. / squared, h};
-    const double   most = implicit_.condensed(form, work_).S.diagonal().cwiseProduct(stiffness_).maxCoeff();
+    const double   most = implicit_.condensed(form, work_).S.matrix().diagonal().cwiseProduct(stiffness_).maxCoeff();
     // omega h of a start's shortest Euler step, which errs by its square over two, 1/8
     constexpr double resolved = 0.5;
     if (!(most > resolved * resolved))

@@ -1,5 +1,6 @@
 #include "coupling/integration/step/consistent_start.h"
 
+#include "coupling/integration/step/condensed_matrix.h"
 #include "coupling/integration/step/implicit_step.h"
 #include "coupling/integration/step/law_values.h"
 
@@ -90,8 +91,7 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
   mass_->solve(f_, product_);
   if (!product_.allFinite())
     refuse_singular(system, method, "no solution exists");
-  blocks_ = system.forces().blocks();
-  tangent_.setZero(tangent_size(blocks_));
+  tangent_.setZero(tangent_size(system.forces().blocks()));
   saddle_ = SaddleMatrix::for_joints(system, joints);
   if (saddle_)
     find_compliance();
@@ -99,19 +99,20 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
     condense();
 }
 
+ConsistentStart::~ConsistentStart() = default;
+
 void ConsistentStart::condense()
 {
-  const auto &W   = system_.forces().directions();
-  const int   n_u = static_cast<int>(W.cols());
-  matrix_         = std::make_unique<CondensedMatrix>(system_);
-  Y_.setZero(W.rows(), n_u);
-  for (int j = 0; j < n_u; ++j)
+  loaded_ = std::make_shared<const LoadedCoordinates>(system_.forces().directions());
+  matrix_ = std::make_unique<CondensedMatrix>(system_, *loaded_);
+  Y_.setZero(f_.size(), loaded_->size());
+  for (int i = 0; i < loaded_->size(); ++i)
   {
-    f_ = W.col(j);
+    f_ = loaded_->unit_force(i);
     mass_->solve(f_, product_);
-    Y_.col(j) = product_;
+    Y_.col(i) = product_;
   }
-  D_ = W.transpose() * Y_;
+  D_ = Compliance(loaded_, Y_);
 }
 
 void ConsistentStart::solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
@@ -125,11 +126,11 @@ void ConsistentStart::solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, 
     iterate_sparse(a, local, work);
     return;
   }
-  if (D_.cols() == 0)
+  if (a_free_.size() == 0)
     return;
   a_free_.noalias() = system_.forces().directions().transpose() * a;
   iterate(local, work);
-  a.noalias() += Y_.lazyProduct(local.p);
+  a.noalias() += Y_.lazyProduct(D_.loads(local.p));
 }
 
 /// f = f_t - B q' - C q
@@ -162,15 +163,6 @@ void ConsistentStart::find_multipliers(const Eigen::VectorXd &q, const Eigen::Ve
     solve(q, v, a_, local, work);
 }
 
-/// D p of the elements alone: most of their forces are zero.
-void ConsistentStart::add_forces(const Eigen::VectorXd &p, Eigen::VectorXd &a) const
-{
-  for (const ForceBlock &block : blocks_)
-    for (int j = block.first_measure; j < block.first_measure + block.n_measures; ++j)
-      if (p[j] != 0.)
-        a.noalias() += p[j] * D_.col(j);
-}
-
 /// u''_free = Y^T (f_t - B q' - C q) by tables, and lambda from (4) of docs/theory/joints.md; the bias
 /// of the joints is in bias_.
 void ConsistentStart::follow(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ConstraintJacobian &G,
@@ -185,15 +177,21 @@ void ConsistentStart::follow(const Eigen::VectorXd &q, const Eigen::VectorXd &v,
     a_load_.noalias() = Y_.transpose() * f_;
     load_known_       = true;
   }
-  local.a = a_load_;
-  local.a.noalias() -= Y_B_ * v;
-  local.a.noalias() -= Y_C_ * q;
-  add_forces(local.p, local.a);
+  moved_ = a_load_;
+  moved_.noalias() -= Y_B_ * v;
+  moved_.noalias() -= Y_C_ * q;
+  local.a.setZero();
+  D_.add_moved(moved_, local.a);
+  g_.setZero();
+  G.set_forces(g_, local.p); // of the elements alone
+  D_.add_times(local.p, local.a);
   matrix_->set_joints(D_, G);
   factorise(local.t);
   g_ = bias_;
   G.add_product(1., local.a, g_);
-  matrix_->close_joints(g_, local.a);
+  correction_.setZero();
+  matrix_->solve_in_place(D_, G, correction_, g_);
+  local.a += correction_;
   local.lambda = g_;
   G.set_forces(local.lambda, local.p);
 }
@@ -234,7 +232,7 @@ void ConsistentStart::move(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t)
   xi += correction_;
   correction_.setZero();
   G_.set_forces(g_, correction_);
-  x.noalias() += Y_.lazyProduct(correction_);
+  x.noalias() += Y_.lazyProduct(D_.loads(correction_));
 }
 
 void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState &local)
@@ -273,16 +271,9 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
 /// of these terms is left of the acceleration.
 bool ConsistentStart::is_small(const Eigen::VectorXd &p)
 {
-  double largest = 0.;
-  for (int i = 0; i < correction_.size(); ++i)
-  {
-    scale_[i] = std::abs(a_free_[i]);
-    for (int j = 0; j < correction_.size(); ++j)
-      scale_[i] += std::abs(D_(i, j) * p[j]);
-    largest = std::max(largest, scale_[i]);
-  }
+  scale_ = D_.magnitudes(p) + a_free_.cwiseAbs();
   if (G_.n_rows() > 0)
-    scale_.setConstant(largest);
+    scale_.setConstant(scale_.maxCoeff());
   return (correction_.array().abs() <= converged * scale_.array()).all();
 }
 
@@ -316,7 +307,7 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
       G_.add_product(1., local.a, g_);
     }
     correction_ = a_free_ - local.a;
-    correction_.noalias() += D_.lazyProduct(local.p);
+    D_.add_times(local.p, correction_);
     factorise(local.t);
     matrix_->solve_in_place(D_, G_, correction_, g_);
     if (joints)
@@ -354,7 +345,7 @@ void ConsistentStart::hold(const Eigen::VectorXd &q, const Eigen::VectorXd &v, L
   held_p_.noalias() += hold_q_.transpose() * q;
   held_p_.noalias() -= hold_f_.transpose() * f_;
   for (std::size_t i = 0; i < holding_.size(); ++i)
-    held_p_[Eigen::Index(i)] -= D_.row(holding_[i]).dot(local.p);
+    held_p_[Eigen::Index(i)] -= hold_D_.row(Eigen::Index(i)).dot(local.p);
   delassus_.solve_in_place(held_p_);
   for (std::size_t i = 0; i < holding_.size(); ++i)
     local.p[holding_[i]] = held_p_[Eigen::Index(i)];
@@ -376,16 +367,18 @@ void ConsistentStart::prepare_hold(double t)
   for (Eigen::Index i = 0; i < n_h; ++i)
   {
     holding_.push_back(held[i].measure);
-    f_             = Y_.col(holding_.back());
+    product_ = system_.forces().directions().col(holding_.back());
+    mass_->solve(product_, f_);
     hold_f_.col(i) = f_;
     system_.linear().damping_times(f_, product_);
     hold_v_.col(i) = product_;
     system_.linear().stiffness_times(f_, product_);
     hold_q_.col(i) = product_;
   }
+  hold_D_ = hold_f_.transpose() * system_.forces().directions();
   for (int i = 0; i < n_h; ++i)
     for (int j = 0; j < n_h; ++j)
-      delassus_.matrix()(i, j) = D_(holding_[i], holding_[j]);
+      delassus_.matrix()(i, j) = hold_D_(i, holding_[j]);
   if (!delassus_.factorise())
     fail_singular(system_, t);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/integration/step/condensed_matrix.h"
+#include "coupling/integration/step/compliance.h"
 #include "coupling/integration/step/saddle_matrix.h"
 #include "coupling/integration/system/small_lu.h"
 #include "coupling/integration/system/time_integrator.h"
@@ -8,6 +8,7 @@
 namespace gestell::coupling
 {
 
+class CondensedMatrix;
 class ImplicitStep;
 class StateArchive;
 
@@ -41,6 +42,7 @@ public:
   /// @throws std::invalid_argument if M is singular, with a coordinate without mass
   ConsistentStart(const SecondOrderSystem &system, const std::string &method,
                   JointSolver joints = JointSolver::automatic);
+  ~ConsistentStart();
 
   /// Computes a [n] at local.t; local.u and local.v must belong to q, v [n].  Fills local.a, local.p and local.lambda.
   /// @throws ConvergenceFailure if p depends on u'' and Newton does not converge, or if joints depend on each other
@@ -87,7 +89,6 @@ private:
   void              move(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
   bool              is_small(const Eigen::VectorXd &p);
   void              set_load(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
-  void              add_forces(const Eigen::VectorXd &p, Eigen::VectorXd &a) const;
   void              tabulate();
   void   follow(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ConstraintJacobian &G, LocalState &local);
   bool   follow_sparse(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step, LocalState &local,
@@ -102,28 +103,30 @@ private:
   void   move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
   double largest_acceleration(const Eigen::VectorXd &p);
 
-  const SecondOrderSystem         &system_;
-  std::unique_ptr<LinearSolver>    mass_;
-  Eigen::MatrixXd                  Y_, D_; // Y = M^-1 W [n x n_u]
-  Eigen::VectorXd                  f_, product_, a_free_, correction_, scale_;
-  ConstraintJacobian               G_;
-  Eigen::VectorXd                  g_, rate_, bias_; // [n_c]
-  Eigen::VectorXd                  tangent_;         ///< dp/du'' by blocks
-  std::unique_ptr<CondensedMatrix> matrix_;          ///< null: sparse
-  std::unique_ptr<SaddleMatrix>    saddle_;          ///< null: condensed
-  Eigen::VectorXd                  y_, load_;        ///< [n + n_c + n_h], [n]
-  bool                             linear_ = true;   ///< no force has depended on u'' or multipliers so far
-  std::vector<ForceBlock>          blocks_;
-  Eigen::MatrixXd                  Y_B_, Y_C_;          ///< Y^T B, Y^T C [n_u x n]; empty until needed
-  Eigen::VectorXd                  a_load_;             ///< [n_u] Y^T f_t
-  bool                             load_known_ = false; ///< a_load_ is, of a constant load
-  Eigen::VectorXd                  compliance_;         ///< [n_u] diagonal of D; empty: condensed
-  Eigen::VectorXd                  shift_; ///< [n_c] from the multipliers of the formula to those of g'' = 0
-  bool                             step_is_near_ = true;      ///< the step's factor has corrected multipliers so far
-  std::vector<int>                 holding_;                  ///< measures for which hold_f_ to delassus_ are computed
-  Eigen::MatrixXd                  hold_f_, hold_v_, hold_q_; ///< M^-1 W_h, B M^-1 W_h, C M^-1 W_h [n x n_h]
-  Eigen::VectorXd                  held_p_, a_;               ///< [n_h], [n]
-  SmallLu                          delassus_;                 ///< D_hh
+  const SecondOrderSystem                 &system_;
+  std::unique_ptr<LinearSolver>            mass_;
+  std::shared_ptr<const LoadedCoordinates> loaded_;
+  Eigen::MatrixXd                          Y_; ///< M^-1 of the loaded coordinates [n x n_N]
+  Compliance                               D_;
+  Eigen::VectorXd                          f_, product_, a_free_, correction_, scale_;
+  ConstraintJacobian                       G_;
+  Eigen::VectorXd                          g_, rate_, bias_;    // [n_c]
+  Eigen::VectorXd                          tangent_;            ///< dp/du'' by blocks
+  std::unique_ptr<CondensedMatrix>         matrix_;             ///< null: sparse
+  std::unique_ptr<SaddleMatrix>            saddle_;             ///< null: condensed
+  Eigen::VectorXd                          y_, load_;           ///< [n + n_c + n_h], [n]
+  bool                                     linear_ = true;      ///< no force has depended on u'' or multipliers so far
+  Eigen::MatrixXd                          Y_B_, Y_C_;          ///< Y^T B, Y^T C [n_N x n]; empty until needed
+  Eigen::VectorXd                          a_load_, moved_;     ///< [n_N] Y^T f_t, Y^T (f_t - B q' - C q)
+  bool                                     load_known_ = false; ///< a_load_ is, of a constant load
+  Eigen::VectorXd                          compliance_;         ///< [n_u] diagonal of D; empty: condensed
+  Eigen::VectorXd                          shift_; ///< [n_c] from the multipliers of the formula to those of g'' = 0
+  bool                                     step_is_near_ = true; ///< the step's factor has corrected multipliers so far
+  std::vector<int>                         holding_; ///< measures for which hold_f_ to delassus_ are computed
+  Eigen::MatrixXd                          hold_f_, hold_v_, hold_q_; ///< M^-1 W_h, B M^-1 W_h, C M^-1 W_h [n x n_h]
+  Eigen::MatrixXd                          hold_D_;                   ///< rows D_h [n_h x n_u]
+  Eigen::VectorXd                          held_p_, a_;               ///< [n_h], [n]
+  SmallLu                                  delassus_;                 ///< D_hh
 };
 
 } // namespace gestell::coupling

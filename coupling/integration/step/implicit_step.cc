@@ -1,5 +1,6 @@
 #include "coupling/integration/step/implicit_step.h"
 
+#include "coupling/integration/step/condensed_matrix.h"
 #include "coupling/integration/step/law_values.h"
 #include "coupling/integration/step/rounding_floors.h"
 
@@ -93,8 +94,13 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   if (saddle_)
     y_.setZero(saddle_->size());
   else
-    matrix_ = std::make_unique<CondensedMatrix>(system);
+  {
+    loaded_ = std::make_shared<const LoadedCoordinates>(system.forces().directions());
+    matrix_ = std::make_unique<CondensedMatrix>(system, *loaded_);
+  }
 }
+
+ImplicitStep::~ImplicitStep() = default;
 
 void ImplicitStep::begin(const Eigen::VectorXd &u)
 {
@@ -135,15 +141,15 @@ const ImplicitStep::Condensed &ImplicitStep::condensed(const StepForm &form, Int
   made.solver = system_.linear().factorise(form.w_M, form.w_B, form.w_C);
   ++work.factorisations;
   const auto &W = system_.forces().directions();
-  made.Y.resize(W.rows(), W.cols());
+  made.Y.resize(W.rows(), loaded_->size());
   Eigen::VectorXd x(W.rows());
-  for (int j = 0; j < W.cols(); ++j)
+  for (int i = 0; i < loaded_->size(); ++i)
   {
-    made.solver->solve(form.force * Eigen::VectorXd(W.col(j)), x);
-    made.Y.col(j) = x;
+    made.solver->solve(form.force * loaded_->unit_force(i), x);
+    made.Y.col(i) = x;
     ++work.solves;
   }
-  made.S = W.transpose() * made.Y;
+  made.S = Compliance(loaded_, made.Y);
   if (leads(made.solver->leading(), W))
   {
     made.Y_led = made.Y(made.solver->leading(), Eigen::all);
@@ -272,7 +278,7 @@ void ImplicitStep::finish(const StepForm &form, const LocalState &base, LocalSta
 bool ImplicitStep::correct(const Condensed &condensed, const LocalState &local)
 {
   residual_ = xi_free_ - xi_;
-  residual_.noalias() += condensed.S.lazyProduct(local.p);
+  condensed.S.add_times(local.p, residual_);
   correction_ = residual_;
   if (!matrix_->factorise(condensed.S, tangent_, system_.forces().held()))
   {
@@ -371,7 +377,7 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
   }
   condensed.solver->solve(f, x);
   find_forces(condensed, base, x, local, work);
-  x.noalias() += condensed.Y.lazyProduct(local.p);
+  x.noalias() += condensed.Y.lazyProduct(condensed.S.loads(local.p));
 }
 
 void ImplicitStep::solve(const Condensed &condensed, const MassLoad &load, const LocalState &base, Eigen::VectorXd &x,
@@ -389,7 +395,7 @@ void ImplicitStep::solve(const Condensed &condensed, const MassLoad &load, const
   condensed.solver->solve_leading(h, f, x);
   find_forces(condensed, base, x, local, work);
   const std::vector<int> &N = condensed.solver->leading();
-  x_led_.noalias()          = condensed.Y_led.lazyProduct(local.p);
+  x_led_.noalias()          = condensed.Y_led.lazyProduct(condensed.S.loads(local.p));
   for (std::size_t i = 0; i < N.size(); ++i)
     x[N[i]] += x_led_[Eigen::Index(i)];
   condensed.solver->solve_following(h, f, x);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/integration/step/condensed_matrix.h"
+#include "coupling/integration/step/compliance.h"
 #include "coupling/integration/step/saddle_matrix.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/integration/system/time_integrator.h"
@@ -11,6 +11,7 @@
 namespace gestell::coupling
 {
 
+class CondensedMatrix;
 class StateArchive;
 
 struct NewtonOptions
@@ -42,13 +43,13 @@ struct StepForm
 /**
  * The nonlinear equation of one implicit step (5.5.2/12), condensed to the measures on which nonlinear forces act.
  *
- * With constant A, A x_free = f, Y = force A^-1 W and S = W^T Y [n_u x n_u], Newton's method has to solve only
+ * With constant A, A x_free = f and S = force W^T A^-1 W (Compliance), Newton's method has to solve only
  *
  *     xi = W^T x_free + S p(xi),
  *
- * which is (5.5.3/7) in the measures; x = x_free + Y p follows.  For a sticking measure xi is given by its rate, and p
- * is unknown.  Ideal joints add g(t, u) = 0 (index 3) with their multipliers, p = G^T lambda on their measures:
- * Newton's matrix is bordered (CondensedMatrix),
+ * which is (5.5.3/7) in the measures; x = x_free + force A^-1 W p follows.  For a sticking measure xi is given by its
+ * rate, and p is unknown.  Ideal joints add g(t, u) = 0 (index 3) with their multipliers, p = G^T lambda on their
+ * measures: Newton's matrix is bordered (CondensedMatrix),
  *
  *     (I - S p') delta - S G^T d_lambda = xi_free + S p - xi,     w_u G delta = -g.
  *
@@ -58,7 +59,7 @@ struct StepForm
  * by theta, the turn is of the size theta s and leaves theta^2 s.  One factorisation is then usual, and the turn
  * measures theta in every step: if it leaves more than the rounding of positions, Newton's iteration goes on.
  *
- * One factorisation of A and n_u solves per StepForm are needed; they are cached.
+ * One factorisation of A and a solve per loaded coordinate are needed for a StepForm; they are cached.
  *
  * With many joints dense matrices are too expensive.  Newton then solves for motion and multipliers at once, with
  * SaddleMatrix:
@@ -72,15 +73,16 @@ class ImplicitStep
 {
 public:
   ImplicitStep(const SecondOrderSystem &system, const NewtonOptions &options);
+  ~ImplicitStep();
 
   /// Data that depend only on the form.
   struct Condensed
   {
     StepForm                      form;
     std::unique_ptr<LinearSolver> solver; ///< null, and Y, S empty, if is_sparse()
-    Eigen::MatrixXd               Y;      // [n x n_u]
-    Eigen::MatrixXd               S;      // [n_u x n_u]
-    Eigen::MatrixXd               Y_led;  // [n_N x n_u] rows of Y of the leading coordinates; empty if W acts on others
+    Eigen::MatrixXd               Y;      // force A^-1 of the loaded coordinates
+    Compliance                    S;
+    Eigen::MatrixXd               Y_led; // rows of Y of the leading coordinates; empty if W acts on others
   };
   const Condensed &condensed(const StepForm &form, IntegrationWork &work);
 
@@ -157,24 +159,25 @@ private:
   NewtonOptions                              options_;
   std::map<std::array<double, 4>, Condensed> cache_; ///< by w_M, w_B, w_C, force
   Eigen::VectorXd f_, x_led_, xi_, xi_free_, residual_, u_begin_, scale_, scale_before_, correction_, first_correction_;
-  std::vector<ForceBlock>          force_blocks_;
-  ConstraintJacobian               G_;
-  Eigen::VectorXd                  g_;       ///< [n_c] g, then d_lambda
-  Eigen::VectorXd                  tangent_; ///< p' by blocks
-  std::unique_ptr<CondensedMatrix> matrix_;  ///< null: sparse
-  bool                             singular_ = false, joints_singular_ = false;
-  int                              dependent_row_ = 0; ///< of the joints, if they are singular
-  std::unique_ptr<SaddleMatrix>    saddle_;            ///< null: condensed
-  Eigen::VectorXd                  y_;                 ///< [n + n_c + n_h] residual, then correction
-  bool                             good_predictions_ = false;
-  bool                             turn_counts_      = false; ///< in the stopping rule
-  double                           most_left_;      ///< of the excursion of a measure, if share_of_error is used
-  double                           contraction_;    ///< of Newton's corrections, last measured in steps of this form
-  double                           form_time_ = 0.; ///< of this form [s]
-  double seen_ = 1., seen_size_ = 1.;               ///< the same for good predictions; size of their first correction
-  double first_size_ = 0.;                          ///< of the first correction of a step
-  long   levers_age_ = 0;                           ///< [steps]
-  int    unseen_     = 0;                           ///< steps since the last check
+  std::vector<ForceBlock>                  force_blocks_;
+  std::shared_ptr<const LoadedCoordinates> loaded_;
+  ConstraintJacobian                       G_;
+  Eigen::VectorXd                          g_;       ///< [n_c] g, then d_lambda
+  Eigen::VectorXd                          tangent_; ///< p' by blocks
+  std::unique_ptr<CondensedMatrix>         matrix_;  ///< null: sparse
+  bool                                     singular_ = false, joints_singular_ = false;
+  int                                      dependent_row_ = 0; ///< of the joints, if they are singular
+  std::unique_ptr<SaddleMatrix>            saddle_;            ///< null: condensed
+  Eigen::VectorXd                          y_;                 ///< [n + n_c + n_h] residual, then correction
+  bool                                     good_predictions_ = false;
+  bool                                     turn_counts_      = false; ///< in the stopping rule
+  double                                   most_left_; ///< of the excursion of a measure, if share_of_error is used
+  double contraction_;                                 ///< of Newton's corrections, last measured in steps of this form
+  double form_time_ = 0.;                              ///< of this form [s]
+  double seen_ = 1., seen_size_ = 1.; ///< the same for good predictions; size of their first correction
+  double first_size_ = 0.;            ///< of the first correction of a step
+  long   levers_age_ = 0;             ///< [steps]
+  int    unseen_     = 0;             ///< steps since the last check
 };
 
 /// Reports the sticking measures whose forces are undetermined.

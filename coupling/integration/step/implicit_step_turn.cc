@@ -1,3 +1,4 @@
+#include "coupling/integration/step/condensed_matrix.h"
 #include "coupling/integration/step/implicit_step.h"
 
 namespace gestell::coupling
@@ -24,7 +25,7 @@ void ImplicitStep::follow_turn(const Condensed &condensed, const LocalState &bas
   take_forces(local);
   g_ /= condensed.form.w_u;
   correction_ = xi_free_ - xi_;
-  correction_.noalias() += condensed.S.lazyProduct(local.p);
+  condensed.S.add_times(local.p, correction_);
   matrix_->solve_in_place(condensed.S, G_, correction_, g_);
   for (const HeldMeasure &h : system_.forces().held())
   {

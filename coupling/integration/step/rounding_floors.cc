@@ -16,13 +16,12 @@ bool is_virtual(const SecondOrderSystem &system, int measure)
 }
 } // namespace
 
-void allow_for_rounding(const Eigen::MatrixXd &S, const Eigen::VectorXd &p, double left, Eigen::VectorXd &scale)
+void allow_for_rounding(const Compliance &S, const Eigen::VectorXd &p, double left, Eigen::VectorXd &scale)
 {
-  for (Eigen::Index j = 0; j < scale.size(); ++j)
-    scale[j] = std::max(scale[j], left * S.row(j).cwiseAbs().dot(p.cwiseAbs()));
+  scale = scale.cwiseMax(left * S.magnitudes(p));
 }
 
-void allow_for_closing(const SecondOrderSystem &system, const Eigen::MatrixXd &S, const std::vector<ForceBlock> &blocks,
+void allow_for_closing(const SecondOrderSystem &system, const Compliance &S, const std::vector<ForceBlock> &blocks,
                        const Eigen::VectorXd &tangent, double left, Eigen::VectorXd &scale)
 {
   double size = 0.;
@@ -39,7 +38,7 @@ void allow_for_closing(const SecondOrderSystem &system, const Eigen::MatrixXd &S
       if (const int j = block.first_measure + i; is_virtual(system, j))
       {
         const double by_others = law.row(i).cwiseAbs().sum() - std::abs(law(i, i));
-        scale[j]               = std::max(scale[j], left * size * std::abs(S(j, j)) * by_others);
+        scale[j]               = std::max(scale[j], left * size * std::abs(S.own(j)) * by_others);
       }
     first += n * n;
   }

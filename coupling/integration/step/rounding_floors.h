@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/step/compliance.h"
 #include "coupling/integration/system/second_order_system.h"
 
 namespace gestell::coupling
@@ -13,15 +14,14 @@ constexpr double finest_tolerance = 1e-13;
 
 /// Forces that balance each other leave the rounding error of their separate effects.  A measure that others constrain
 /// has no other scale.
-/// @param S     compliance over the step [n_u x n_u]
 /// @param left  rounding, relative to the motion by one force, in units of the tolerance
-void allow_for_rounding(const Eigen::MatrixXd &S, const Eigen::VectorXd &p, double left, Eigen::VectorXd &scale);
+void allow_for_rounding(const Compliance &S, const Eigen::VectorXd &p, double left, Eigen::VectorXd &scale);
 
 /// Joints are satisfied up to a rounding error of their size, and a virtual coordinate amplifies it by its law:
 /// bristles of 3e4 N m/rad turn an angle error of 1e-16 into 3e-12 N m.
 /// @param blocks,  tangent  of the forces: p' as local_tangent_blocks() gives it
 /// @param left     rounding, relative to the size of a joint, in units of the tolerance
-void allow_for_closing(const SecondOrderSystem &system, const Eigen::MatrixXd &S, const std::vector<ForceBlock> &blocks,
+void allow_for_closing(const SecondOrderSystem &system, const Compliance &S, const std::vector<ForceBlock> &blocks,
                        const Eigen::VectorXd &tangent, double left, Eigen::VectorXd &scale);
 
 } // namespace gestell::coupling

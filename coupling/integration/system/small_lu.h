@@ -25,6 +25,13 @@ public:
   }
   /// To be filled, then factorised.
   Eigen::MatrixXd &matrix() { return a_; }
+  /// A matrix of n <= the size of resize(), until the next call: its numbers, column by column.
+  double *use(int n)
+  {
+    pivot_.resize(n);
+    idle_.resize(n);
+    return a_.data();
+  }
 
   /// Factorises.  False: singular, because a pivot is within the rounding error of its row and of the products that
   /// elimination subtracted from it; unknowns of other units, such as states of drives, may make the row arbitrarily
@@ -143,9 +150,10 @@ private:
   /// Sum of the magnitudes that elimination has subtracted from an entry so far, in arbitrary units.
   double terms(int row, int column) const
   {
-    double sum = 0.;
+    const auto n   = Eigen::Index(pivot_.size());
+    double     sum = 0.;
     for (int m = 0; m < column; ++m)
-      sum += std::abs(a_(row, m) * a_(m, column));
+      sum += std::abs(a_.data()[row + n * m] * a_.data()[m + n * column]);
     return sum;
   }
 

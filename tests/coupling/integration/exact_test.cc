@@ -13,7 +13,7 @@ using namespace coupling;
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-Matrix one(double x)
+Matrix one_by_one(double x)
 {
   return Matrix::Constant(1, 1, x);
 }
@@ -51,7 +51,7 @@ TEST(Exact, FreeVibrationHasNoErrorAtAnyStep)
     for (const double h : {0.01, 1., 50.})
     {
       const double     w = 3.;
-      SmallSystem      system(one(2.), one(2. * 2. * zeta * w), one(2. * w * w));
+      SmallSystem      system(one_by_one(2.), one_by_one(2. * 2. * zeta * w), one_by_one(2. * w * w));
       ModalPropagation exact(system, fixed(h));
       exact.begin(0., Vector::Constant(1, 0.3), Vector::Constant(1, -0.4));
       for (int k = 0; k < 10; ++k)
@@ -65,7 +65,7 @@ TEST(Exact, FreeVibrationHasNoErrorAtAnyStep)
 TEST(Exact, CriticalDampingLosesNoMoreThanItsEigenvectorsDo)
 {
   const double     w = 3., h = 0.1;
-  SmallSystem      system(one(1.), one(2. * w), one(w * w));
+  SmallSystem      system(one_by_one(1.), one_by_one(2. * w), one_by_one(w * w));
   ModalPropagation exact(system, fixed(h));
   exact.begin(0., Vector::Constant(1, 1.), Vector::Constant(1, 0.));
   run_to(exact, 1., h);
@@ -139,7 +139,7 @@ TEST(Exact, AMasslessCoordinateIsRefusedByName)
 
 TEST(Exact, UndampedResonanceIsRefused)
 {
-  SmallSystem system(one(1.), one(0.), one(9.));
+  SmallSystem system(one_by_one(1.), one_by_one(0.), one_by_one(9.));
   system.loads().add_harmonic(0, 3., 1., 0.);
   EXPECT_THROW(ModalPropagation(system, fixed(0.1)), std::invalid_argument);
 }
@@ -233,7 +233,7 @@ TEST(Exact, DenseOutputOfTheWholeMotionIsThatOfAStepEndingThere)
 
 double energy_after(ForceRule force, double omega_h, int steps)
 {
-  SmallSystem system(one(1.), one(0.), one(0.));
+  SmallSystem system(one_by_one(1.), one_by_one(0.), one_by_one(0.));
   system.set_law(Vector::Ones(1), law_of([omega_h](double u) { return -omega_h * omega_h * u; },
                                          [omega_h](double) { return -omega_h * omega_h; }));
   ModalPropagation exact(system, fixed(1., force));
@@ -249,7 +249,7 @@ TEST(Exact, DenseOutputOfAShortStepLosesNothingToRounding)
 {
   for (const ForceRule rule : {ForceRule::collocation, ForceRule::linear, ForceRule::average})
   {
-    SmallSystem system(one(1.), one(0.), one(0.));
+    SmallSystem system(one_by_one(1.), one_by_one(0.), one_by_one(0.));
     system.set_law(Vector::Ones(1), law_of([](double u) { return -100. * u; }, [](double) { return -100.; }));
     ModalPropagation exact(system, fixed(0.01, rule));
     exact.begin(0., Vector::Constant(1, 1.1), Vector::Constant(1, 0.1));
@@ -278,7 +278,7 @@ TEST(Exact, AverageForceKeepsTheEnergyOfARattlingMassWithoutEvents)
   // inside a step may not add up.
   for (const double omega_h : {0.3, 3., 30.})
   {
-    SmallSystem  system(one(1.), one(0.), one(0.));
+    SmallSystem  system(one_by_one(1.), one_by_one(0.), one_by_one(0.));
     const double k = omega_h * omega_h, gap = 2.3;
     system.set_law(Vector::Ones(1),
                    [k, gap](double u, double, double &p, double &du, double &dv)
@@ -348,7 +348,7 @@ TEST(Exact, WhatSticksFromTheStartOnDoesNotKeepNewtonFromConverging)
 /// End of x'' + x + x^3 = 0 from x = 1.
 double end_of_duffing(const ModalPropagation::Options &options)
 {
-  SmallSystem system(one(1.), one(0.), one(1.));
+  SmallSystem system(one_by_one(1.), one_by_one(0.), one_by_one(1.));
   system.set_law(Vector::Ones(1), law_of([](double u) { return -u * u * u; }, [](double u) { return -3. * u * u; }));
   ModalPropagation exact(system, options);
   exact.begin(0., Vector::Ones(1), Vector::Zero(1));
