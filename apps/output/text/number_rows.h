@@ -9,7 +9,7 @@ namespace gestell::apps
 {
 
 /// Rows of numbers in full precision, parted by commas, in pieces of some kilobytes; an incomplete last row is dropped.
-/// @param put  takes the begin and the length of a piece
+/// @param put  takes the address and the length of a piece
 template <class Put>
 void write_number_rows(const std::vector<double> &numbers, std::size_t width, const Put &put)
 {
