@@ -79,14 +79,9 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
       options_.share_of_error = 0.;
   }
   const int n_u = static_cast<int>(system.forces().directions().cols());
-  xi_.setZero(n_u);
-  xi_free_.setZero(n_u);
-  residual_.setZero(n_u);
-  correction_.setZero(n_u);
-  first_correction_.setZero(n_u);
-  u_begin_.setZero(n_u);
-  scale_.setZero(n_u);
-  scale_before_.setZero(n_u);
+  for (Eigen::VectorXd *of_measures :
+       {&xi_, &xi_free_, &residual_, &correction_, &first_correction_, &u_begin_, &scale_, &scale_before_})
+    of_measures->setZero(n_u);
   g_.setZero(G_.n_rows());
   begin(u_begin_);
   tangent_.setZero(tangent_size(force_blocks_));
