@@ -93,7 +93,6 @@ private:
   void   follow(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ConstraintJacobian &G, LocalState &local);
   bool   follow_sparse(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step, LocalState &local,
                        IntegrationWork &work);
-  bool   is_closed(const ConstraintJacobian &G, const LocalState &local) const;
   void   iterate(LocalState &local, IntegrationWork &work);
   void   prepare_hold(double t);
   void   condense();

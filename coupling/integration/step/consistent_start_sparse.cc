@@ -5,9 +5,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gestell::coupling
 {
+
+namespace
+{
+
+/// The largest g'' compared with its terms: the bias, and G times the accelerations whose sum u'' is.
+double largest_opening(const Eigen::VectorXd &g, const Eigen::VectorXd &bias, const ConstraintJacobian &G,
+                       const LocalState &local, const Eigen::VectorXd &compliance)
+{
+  double largest = 0.;
+  for (std::size_t b = 0; b < G.blocks().size(); ++b)
+  {
+    const ConstraintBlock &block = G.blocks()[b];
+    for (int i = 0; i < block.n_rows; ++i)
+    {
+      const int row   = block.first_row + i;
+      double    terms = std::abs(bias[row]);
+      for (int k = 0, j = block.first_measure; k < block.n_measures; ++k, ++j)
+        terms += std::abs(G[b](i, k)) * std::max(std::abs(local.a[j]), compliance[j] * std::abs(local.p[j]));
+      if (!(std::abs(g[row]) <= largest * terms))
+        largest = std::abs(g[row]) / terms;
+    }
+  }
+  return largest;
+}
+
+} // namespace
 
 // Starts of systems with many joints: see ConsistentStart and SaddleMatrix for the equations.
 
@@ -117,21 +144,6 @@ void ConsistentStart::find_compliance()
   }
 }
 
-/// Whether g'' in g_ is zero up to rounding: of G u'' and of the accelerations whose sum u'' is.
-bool ConsistentStart::is_closed(const ConstraintJacobian &G, const LocalState &local) const
-{
-  const double largest =
-      std::max(local.a.cwiseAbs().maxCoeff(), compliance_.cwiseProduct(local.p).cwiseAbs().maxCoeff());
-  for (std::size_t b = 0; b < G.blocks().size(); ++b)
-    for (int i = 0; i < G.blocks()[b].n_rows; ++i)
-    {
-      const int row = G.blocks()[b].first_row + i;
-      if (!(std::abs(g_[row]) <= converged * (std::abs(bias_[row]) + G[b].row(i).lpNorm<1>() * largest)))
-        return false;
-    }
-  return true;
-}
-
 /// The bias of the joints is in bias_.
 bool ConsistentStart::follow_sparse(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step,
                                     LocalState &local, IntegrationWork &work)
@@ -143,6 +155,8 @@ bool ConsistentStart::follow_sparse(const Eigen::VectorXd &q, const Eigen::Vecto
   y_.resize(K.size());
   rate_ = local.lambda;
   local.lambda += shift_;
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  double           open     = std::numeric_limits<double>::infinity();
   for (int correction = 0; K.has_factor() && correction <= most_corrections; ++correction)
   {
     G.set_forces(local.lambda, local.p);
@@ -152,7 +166,9 @@ bool ConsistentStart::follow_sparse(const Eigen::VectorXd &q, const Eigen::Vecto
     local.a.noalias() = W.transpose() * product_;
     g_                = bias_;
     G.add_product(1., local.a, g_);
-    if (is_closed(G, local))
+    const double before = open;
+    open                = largest_opening(g_, bias_, G, local, compliance_);
+    if (open <= rounding || (open <= converged && open >= 0.5 * before)) // nothing left but rounding
     {
       shift_ = local.lambda - rate_;
       return true;
