@@ -61,7 +61,6 @@ CondensedMatrix::CondensedMatrix(const SecondOrderSystem &system, const LoadedCo
   scalars_.reserve(n_F);
   kept_held_.reserve(n_F);
   kept_tangent_.setZero(Eigen::Index(l_.size()));
-  own_motion_.setZero(Eigen::Index(n_F));
   rest_.resize(largest * largest);
   size_.resize(largest * largest);
   own_.resize(most);
@@ -327,50 +326,18 @@ void CondensedMatrix::border()
       H(d, c) = G_S_G_(d, c) + product(P_.data() + n * d, X_.data() + n * c, n);
 }
 
-/// Bound of the contraction that factors of another p' leave to Newton's method, with measures in the unit of their
-/// motion d_i = sqrt(S_ii): as |S_ki| <= d_k d_i, |S dp'| <= sum d_i |dp'_ij| d_j.  J^-1 adds nothing to it for forces
-/// that resist the motion.
-double CondensedMatrix::contraction_by(const Eigen::VectorXd &tangent) const
-{
-  double        sum = 0.;
-  const double *now = tangent.data(), *kept = kept_tangent_.data(), *d = own_motion_.data();
-  for (const Block &block : force_blocks_)
-  {
-    const int k = block.n_measures;
-    for (int j = 0; j < k; ++j, now += k, kept += k)
-    {
-      double column = 0.;
-      for (int i = 0; i < k; ++i)
-        column += d[i] * std::abs(now[i] - kept[i]);
-      sum += d[j] * column;
-    }
-    d += k;
-  }
-  return sum;
-}
-
-/// Without p' the equations are linear, and nobody iterates: J must be theirs.
+/// Elements whose p' does not change are as frequent as those whose forces do not act.
 bool CondensedMatrix::keeps_forces(const Compliance &S, const Eigen::VectorXd &tangent,
                                    const std::vector<HeldMeasure> &held) const
 {
-  constexpr double kept = 1e-6; // contraction: less than what Newton's own corrections show at their best
-  const auto       same = [](int measure, const HeldMeasure &h) { return measure == h.measure; };
-  if (kept_S_ != &S || !std::equal(kept_held_.begin(), kept_held_.end(), held.begin(), held.end(), same))
-    return false;
-  const double contraction = contraction_by(tangent);
-  return contraction == 0. || (contraction <= kept && !tangent.isZero(0.));
+  const auto same = [](int measure, const HeldMeasure &h) { return measure == h.measure; };
+  return kept_S_ == &S && std::equal(kept_held_.begin(), kept_held_.end(), held.begin(), held.end(), same) &&
+         tangent == kept_tangent_;
 }
 
 bool CondensedMatrix::factorise_forces(const Compliance &S, const Eigen::VectorXd &tangent,
                                        const std::vector<HeldMeasure> &held)
 {
-  if (kept_S_ != &S)
-  {
-    Eigen::Index i = 0;
-    for (const Block &block : force_blocks_)
-      for (int j = 0; j < block.n_measures; ++j)
-        own_motion_[i++] = std::sqrt(std::abs(S.own(block.first_measure + j)));
-  }
   kept_S_ = nullptr;
   collect(S, tangent.data(), held);
   fill_forces(S);

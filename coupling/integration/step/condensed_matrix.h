@@ -30,8 +30,8 @@ class StateArchive;
  * proportional to h^2: compared with p' = d/h of a damper, a force in its own unit would be mistaken for rounding in
  * short steps.
  *
- * J is kept, over iterations and steps, as long as a bound of the contraction that its p' leaves to Newton's method is
- * negligible, and H until G is set again.  Nothing allocates after construction.
+ * J is kept, over iterations and steps, as long as p' does not change, and H until G is set again.  Nothing allocates
+ * after construction.
  */
 class CondensedMatrix
 {
@@ -90,12 +90,11 @@ private:
   void         collect_measures(const Compliance &S, const Block &block, const double *tangent,
                                 const std::vector<HeldMeasure> &held);
   Scalar      &add_scalar(const Block &block, int measure, bool held);
-  void   multiply(const Scalar *rows, int n, const double *x, const Compliance::Range &moved, double *L_x, double *B_x);
-  bool   keeps_forces(const Compliance &S, const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held) const;
-  double contraction_by(const Eigen::VectorXd &tangent) const;
-  bool   factorise_forces(const Compliance &S, const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held);
-  void   fill_forces(const Compliance &S);
-  void   border();
+  void multiply(const Scalar *rows, int n, const double *x, const Compliance::Range &moved, double *L_x, double *B_x);
+  bool keeps_forces(const Compliance &S, const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held) const;
+  bool factorise_forces(const Compliance &S, const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held);
+  void fill_forces(const Compliance &S);
+  void border();
   void add_motion(const Compliance &S, const ConstraintJacobian &G, const Eigen::VectorXd &dlambda, Eigen::VectorXd &r);
 
   std::vector<Block>             force_blocks_, joint_blocks_;
@@ -117,7 +116,6 @@ private:
   const Compliance              *kept_S_       = nullptr; ///< of J; null: there is none
   Eigen::VectorXd                kept_tangent_;           ///< of J
   std::vector<int>               kept_held_;              ///< sticking measures of J
-  Eigen::VectorXd                own_motion_;             ///< [n_F] sqrt(S_ii)
   bool                           joints_known_ = false;   ///< H belongs to J and G
 };
 
