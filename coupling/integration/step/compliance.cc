@@ -72,7 +72,6 @@ const Eigen::VectorXd &Compliance::loads(const Eigen::VectorXd &p) const
   return load_;
 }
 
-/// u += W_N^T x
 void Compliance::add_moved(const Eigen::VectorXd &x, Eigen::VectorXd &u) const
 {
   for (int j = 0; j < int(u.size()); ++j)

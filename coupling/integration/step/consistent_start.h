@@ -49,7 +49,7 @@ public:
   void solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
              IntegrationWork &work);
 
-  /// The multipliers, forces and u'' at the end of a step, as solve() computes them, written into local.  Almost
+  /// Writes the multipliers, forces and u'' where a step ends into local, as solve() computes them.  Almost
   /// everything is known there: G from the step, lambda from its formula.  Condensed, u'' follows from tables.
   /// Sparse, the step's own factor corrects lambda until
   ///

@@ -175,7 +175,7 @@ private:
   double contraction_;                                 ///< of Newton's corrections, last measured in steps of this form
   double form_time_ = 0.;                              ///< of this form [s]
   double seen_ = 1., seen_size_ = 1.; ///< the same for good predictions; size of their first correction
-  double first_size_ = 0.;            ///< of the first correction of a step
+  double first_size_ = 0.;            ///< of the first correction in a step
   long   levers_age_ = 0;             ///< [steps]
   int    unseen_     = 0;             ///< steps since the last check
 };

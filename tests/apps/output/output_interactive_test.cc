@@ -127,7 +127,7 @@ Result numbered_pictures()
   return result;
 }
 
-/// The stroke as it was asked for ends in the last picture, and what it is looked at for is its peak.
+/// The last picture is the end of the run, and one shows the main peak.
 TEST(AnimationInstants, HoldTheEndAndTheMainPeak)
 {
   Result result                = numbered_pictures();
