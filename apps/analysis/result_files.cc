@@ -28,7 +28,7 @@ std::string csv_of(const Result &result)
 
 /// Files that do not belong to an analysis.
 const std::vector<ResultFile> own_files = {
-    {"history.csv", "to plot: every signal over time", nullptr}, // written in pieces
+    {"history.csv", "to plot: every signal over time", csv_of<&Result::run, history_csv>},
     {"modes.csv", "natural frequencies, damping, effective masses", csv_of<modes_csv>},
     {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", csv_of<mode_energies_csv>},
     {"size.csv", "models that `size` tried, with their cost and errors", csv_of<&Result::size, size_csv>},

@@ -60,17 +60,18 @@ bool is_full(const std::error_code &error)
          error == std::error_code(EDQUOT, std::generic_category());
 }
 
+const char *const history = "history.csv";
+
 /// The longest table, in pieces: as a text it would take as much memory as the file.
 void write_history(Writing &writing, const coupling::RunResult &run)
 {
   if (run.columns.empty())
     return;
-  const std::string name = "history.csv";
   writing.together(
       [&](OwnFolder &folder, std::vector<std::string> &names)
       {
-        names.push_back(name);
-        coupling::AtomicFile file(folder.claim(name).string());
+        names.push_back(history);
+        coupling::AtomicFile file(folder.claim(history).string());
         file.stream() << std::string(CsvTable(heads_of(run.columns, run.units)));
         write_number_rows(run.rows, run.columns.size(),
                           [&](const char *piece, std::size_t length)
@@ -79,14 +80,14 @@ void write_history(Writing &writing, const coupling::RunResult &run)
       });
 }
 
-/// Writes files of one function each, if the result has data for them.
+/// Writes files of one function each, if the result has data for them; not the history.
 /// @param folder  a Writing or an OwnFolder
 template <typename Folder>
 void write_tables(Folder &folder, const Result &result)
 {
   for (const ResultFile &file : result_files())
   {
-    if (const std::string content = file.content ? file.content(result) : ""; !content.empty())
+    if (const std::string content = file.content && file.name != history ? file.content(result) : ""; !content.empty())
       folder.write(file.name, content);
     if (file.several)
       for (const auto &[name, content] : file.several(result))
@@ -210,7 +211,7 @@ void write_modes(const fs::path &folder, const Result &result)
 {
   OwnFolder                own(folder);
   std::vector<std::string> names;
-  write_tables(own, result);
+  write_tables(own, result); // without a run no history
   for (const auto &series : paraview_series())
     series(own, result, names);
   Pictures pictures;
