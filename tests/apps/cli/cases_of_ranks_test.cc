@@ -139,8 +139,8 @@ TEST(CasesOfRanks, RanksWithoutWorkAreTold)
                                      " run \"" GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml\" "
                                      "--set run.end=0.01 --quiet -o \"" +
                                      folder.results().string() + "\"");
-  expect_answer(run, 0, {"gestell: 1 of 2 ranks were idle: there was no frame to compute"});
-  EXPECT_EQ(count(on_ranks(4, program + " help stiffness").text, "3 of 4 ranks were idle"), 1);
+  expect_answer(run, 0, {"gestell: ranks without work: 1 of 2; there was no frame to compute"});
+  EXPECT_EQ(count(on_ranks(4, program + " help stiffness").text, "ranks without work: 3 of 4"), 1);
 }
 
 // As srun --mpi=none starts two tasks, and as sbatch starts a script and an array its tasks.

@@ -159,7 +159,7 @@ TEST(Mpi, OfRanksOneReducesTheParts)
   const Folder folder("mpi_parts");
   const Answer answer = call(folder, ranks(2), "reduce " + plate(folder, "80 mm") + " --set frame.parts=2");
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
-  EXPECT_EQ(count(answer.text, "gestell: 1 of 2 ranks are idle while the parts are reduced"), 1) << answer.text;
+  EXPECT_EQ(count(answer.text, "gestell: ranks without work while the parts are reduced: 1 of 2"), 1) << answer.text;
 }
 
 TEST(Mpi, AFactorOfOneProcessIsRefusedWhereAFrameIsComputed)
