@@ -24,6 +24,8 @@ public:
   const Eigen::VectorXd &residual() const { return residual_; }
   const Eigen::MatrixXd &jacobian() const { return jacobian_; }
   double                 closing() const { return closing_; } ///< size of F, relative
+  /// Part of the range over which dF/dlambda is taken: rounding and curvature leave 1e-6 and less of it.
+  virtual double parameter_difference() const { return 1e-6; }
   /// Of the last evaluation; with multipliers where it had a jacobian.
   virtual PeriodicSolution solution() = 0;
   /// Updates data taken from the motion of the last evaluation, such as mesh points at its events; z becomes its

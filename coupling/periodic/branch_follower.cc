@@ -116,9 +116,8 @@ MatrixXd BranchFollower::derivative(const VectorXd &z, double lambda)
   const Index    m = z.size();
   const VectorXd F = equations_.residual();
   MatrixXd       D(m, m + 1);
-  D.leftCols(m) = equations_.jacobian();
-  // of the range, for dF/dlambda: rounding and curvature leave 1e-6 and less
-  constexpr double difference = 1e-6;
+  D.leftCols(m)           = equations_.jacobian();
+  const double difference = equations_.parameter_difference();
   equations_.evaluate(z, lambda + difference * range_, false);
   D.col(m) = (equations_.residual() - F) / (difference * range_);
   return D;
@@ -131,6 +130,7 @@ bool BranchFollower::correct(VectorXd z, double lambda, const VectorXd &across, 
   MatrixXd      A = near.derivative.size() > 0 ? bordered(near.derivative, across) : MatrixXd();
   VectorXd      dx, r = VectorXd::Zero(m + 1);
   double        before = 0.;
+  bool          fresh  = false; // the last step was by derivatives of its own begin
   int           moves = 0, last_move = 0;
   constexpr int most_corrections = 16; // Newton's take a few, chords twice as many
   for (point.iterations = 0; point.iterations - last_move < most_corrections; ++point.iterations)
@@ -150,21 +150,24 @@ bool BranchFollower::correct(VectorXd z, double lambda, const VectorXd &across, 
       dx.resize(0);
       continue;
     }
-    if (here <= tolerance_)
+    constexpr double slow          = 0.5;  // contraction above which the derivatives are taken anew
+    constexpr double as_integrated = 1e-6; // closing error that jumps of fixed steps from grid to grid may leave
+    const bool       moved         = dx.size() > 0;
+    const bool       stalls        = moved && here > slow * before;
+    if (here <= tolerance_ || (fresh && stalls && here <= as_integrated))
     {
       point.z          = z;
       point.lambda     = lambda;
       point.derivative = A.size() > 0 ? unscaled(A) : MatrixXd();
       return true;
     }
-    const bool       moved = dx.size() > 0;
-    constexpr double slow  = 0.5; // contraction above which the derivatives are taken anew
-    if (A.size() > 0 && moved && here > slow * before)
+    if (A.size() > 0 && stalls)
     {
       equations_.evaluate(z, lambda, true);
       A.resize(0, 0);
     }
-    if (A.size() == 0)
+    fresh = A.size() == 0;
+    if (fresh)
       A = bordered(derivative(z, lambda), across);
     else if (moved)
       A.topRows(m) += F * (dx.transpose() / dx.squaredNorm());

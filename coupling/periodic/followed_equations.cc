@@ -59,12 +59,14 @@ public:
   {
     if (!equations_ || lambda != lambda_)
     {
+      const PassageDifferences differences = equations_ ? equations_->flow().differences() : PassageDifferences();
       equations_.reset();
       member_ = member_at(family_, lambda, ratio_);
       if (member_.problem.period_is_unknown())
         member_.problem.period = z[z.size() - 1];
       equations_ = std::make_unique<ShootingEquations>(member_.problem, options_.integration, omega_);
-      lambda_    = lambda;
+      equations_->flow().begin_with(differences);
+      lambda_ = lambda;
     }
     equations_->evaluate(z, jacobian);
     residual_ = equations_->residual();
@@ -73,6 +75,10 @@ public:
   }
 
   PeriodicSolution solution() override { return equations_->solution("shooting"); }
+  double           parameter_difference() const override
+  {
+    return equations_->flow().has_tangents() ? BranchEquations::parameter_difference() : PassageDifferences::step;
+  }
 
 private:
   ProblemFamily                      family_;

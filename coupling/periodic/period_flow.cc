@@ -1,11 +1,13 @@
 #include "coupling/periodic/period_flow.h"
 
 #include "coupling/integration/integration_methods.h"
+#include "coupling/integration/step/consistent_start.h"
 #include "coupling/integration/system/dense_solvers.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -59,6 +61,8 @@ PeriodFlow::PeriodFlow(const PeriodicProblem &problem, const MethodOptions &inte
   v_look_ = q_look_;
 }
 
+PeriodFlow::~PeriodFlow() = default;
+
 void PeriodFlow::look_on(int samples, std::function<void(const OrbitPoint &)> look)
 {
   std::vector<double> shares;
@@ -96,6 +100,7 @@ void PeriodFlow::start(const VectorXd &q, const VectorXd &v, double begin, doubl
   passage_.q_begin = q;
   passage_.v_begin = v;
   passage_.fastest = v.norm();
+  speeds_          = v.cwiseAbs();
   carries_         = tangents;
   begin_           = begin;
   end_             = end;
@@ -115,9 +120,65 @@ void PeriodFlow::start(const VectorXd &q, const VectorXd &v, double begin, doubl
 
 const PeriodPassage &PeriodFlow::pass(const VectorXd &q, const VectorXd &v, double period, bool tangents)
 {
+  if (tangents && !tangents_)
+    return pass_with_differences(q, v, period);
   pass_part(q, v, problem_.begin, problem_.begin + period, tangents);
   passage_.period = period;
   put_back(q);
+  return passage_;
+}
+
+const PeriodPassage &PeriodFlow::pass_with_differences(const VectorXd &q, const VectorXd &v, double period)
+{
+  const Index  n     = q.size();
+  const double omega = 2. * M_PI / problem_.period;
+  const auto   looks = std::exchange(looks_, {});
+  PeriodicWork work;
+  const auto   z_of = [&](const VectorXd &x, const VectorXd &rate)
+  {
+    VectorXd z(2 * n);
+    z << omega * x, rate;
+    return z;
+  };
+  const auto passage = [&](const VectorXd &z) -> PassageDifferences::End
+  {
+    pass(z.head(n) / omega, z.tail(n), period, false);
+    work.add({0, 1, passage_.work});
+    std::string events;
+    for (const Event &event : passage_.events)
+      events += event.name + ", " + event.kind + "; ";
+    return {z_of(passage_.q - problem_.turn, passage_.v), events};
+  };
+  const auto nearest = [&](const VectorXd &z) -> VectorXd
+  {
+    if (system_.joints().n_rows() == 0)
+      return z;
+    if (!start_)
+      start_ = std::make_unique<ConsistentStart>(system_, "the derivative of a period");
+    VectorXd x = z.head(n) / omega, rate = z.tail(n);
+    local_look_.t = problem_.begin;
+    local_look_.u = system_.forces().directions().transpose() * x;
+    local_look_.v = system_.forces().directions().transpose() * rate;
+    start_->project(x, rate, local_look_);
+    return z_of(x, rate);
+  };
+  const VectorXd z     = z_of(q, v);
+  const auto     end   = passage(z);
+  const VectorXd sizes = z_of(speeds_ / omega, speeds_);
+  MatrixXd       monodromy =
+      dq_begin_.size() == 0
+                ? differences_.monodromy(z, end, sizes, passage, nearest)
+                : differences_.images(z, end, sizes, passage, nearest,
+                                      (MatrixXd(2 * n, dq_begin_.cols()) << omega * dq_begin_, dv_begin_).finished());
+  monodromy.topRows(n) /= omega;
+  if (dq_begin_.size() == 0)
+    monodromy.leftCols(n) *= omega;
+  looks_ = looks;
+  pass(q, v, period, false); // the integrator is at its end again
+  passage_.monodromy = std::move(monodromy);
+  work.add({0, 1, passage_.work});
+  passage_.work = work.integration;
+  passage_.runs = work.periods;
   return passage_;
 }
 
@@ -274,6 +335,8 @@ void PeriodFlow::step()
   largest_[2]      = largest_[2].cwiseMax(local.a.cwiseAbs());
   largest_[3]      = largest_[3].cwiseMax(local.p.cwiseAbs());
   passage_.fastest = std::max(passage_.fastest, integrator_.instant().v.norm());
+  if (!tangents_)
+    speeds_ = speeds_.cwiseMax(integrator_.instant().v.cwiseAbs());
   if (!looks_.empty())
     show(integrator_.time());
   if (at_turn_)

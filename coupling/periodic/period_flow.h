@@ -2,6 +2,7 @@
 
 #include "coupling/integration/events/motion.h"
 #include "coupling/integration/system/motion_tangents.h"
+#include "coupling/periodic/passage_differences.h"
 #include "coupling/periodic/periodic_solution.h"
 
 #include <functional>
@@ -9,6 +10,8 @@
 
 namespace gestell::coupling
 {
+
+class ConsistentStart;
 
 /// End state of one period.
 struct PeriodPassage
@@ -24,6 +27,7 @@ struct PeriodPassage
   std::vector<std::string> grazing;         ///< events whose guard touches zero without crossing
   double                   chattering = 0.; ///< share of the period with too many events to locate
   IntegrationWork          work;
+  long                     runs = 1; ///< passages; more: with those whose differences are the monodromy matrix
 };
 
 /**
@@ -36,14 +40,21 @@ struct PeriodPassage
  *
  * the saltation matrix (Aizerman, Gantmakher 1958; Mueller 1995).  Transitions that follow at the same instant share
  * dt*.  If g' is negligible, the event is grazing: dt* is omitted, and this is reported.
+ *
+ * Of integrators without tangents the derivative of whole periods is taken by differences (PassageDifferences).
  */
 class PeriodFlow : private RunObserver
 {
 public:
   /// @throws std::invalid_argument as the integrator
   PeriodFlow(const PeriodicProblem &problem, const MethodOptions &integration);
+  ~PeriodFlow() override;
 
   bool has_tangents() const { return tangents_ != nullptr; }
+  /// Of integrators without tangents: what differences of the last period were taken for, to begin with in a flow of a
+  /// neighbouring problem.
+  const PassageDifferences &differences() const { return differences_; }
+  void                      begin_with(const PassageDifferences &differences) { differences_ = differences; }
   /// Tangents dq, dv [n x k] with which passages begin, when they are asked for; empty: all of the start.
   void carry(const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv);
 
@@ -77,14 +88,15 @@ public:
 
 private:
   void start(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double begin, double end, bool tangents);
-  void require_few(long steps) const;
-  void finish(const IntegrationWork &before);
-  void carry_all();
-  void step() override;
-  void guard(int number) override;
-  void event(const Event &) override;
-  void find_slopes(int guard, Eigen::MatrixXd &gradient, double &partial);
-  void show(double until);
+  const PeriodPassage &pass_with_differences(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double period);
+  void                 require_few(long steps) const;
+  void                 finish(const IntegrationWork &before);
+  void                 carry_all();
+  void                 step() override;
+  void                 guard(int number) override;
+  void                 event(const Event &) override;
+  void                 find_slopes(int guard, Eigen::MatrixXd &gradient, double &partial);
+  void                 show(double until);
 
   const PeriodicProblem                  &problem_;
   SecondOrderSystem                      &system_;
@@ -99,8 +111,11 @@ private:
   double                                  begin_ = 0., end_ = 0.; ///< of the passage [s]
   Eigen::RowVectorXd                      dt_;                    ///< of the event under way
   double                                  t_event_ = 0.;
-  Eigen::VectorXd                         before_;     ///< forces before it
-  Eigen::VectorXd                         largest_[4]; ///< |u|, |v|, |a|, |p| so far
+  Eigen::VectorXd                         before_;      ///< forces before it
+  Eigen::VectorXd                         largest_[4];  ///< |u|, |v|, |a|, |p| so far
+  PassageDifferences                      differences_; ///< in place of tangents
+  std::unique_ptr<ConsistentStart>        start_;       ///< of neighbouring passages, with joints
+  Eigen::VectorXd                         speeds_;      ///< |q'| so far [n], without tangents
   std::unique_ptr<LinearSolver>           mass_;
   Eigen::VectorXd                         acceleration_;
   std::vector<double>                     looks_; ///< shares of the passage

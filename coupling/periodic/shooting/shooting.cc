@@ -44,7 +44,7 @@ const PeriodPassage &ShootingEquations::pass(const VectorXd &z, bool tangents)
   if (!(period > 0.))
     throw ConvergenceFailure("Newton's method gives a period that is not positive");
   const PeriodPassage &passage = flow_.pass(z.head(n) / omega_, z.segment(n, n), period, tangents);
-  ++passages_;
+  passages_ += passage.runs;
   PeriodicWork sum{0, 0, work_};
   sum.add({0, 1, passage.work});
   work_ = sum.integration;
@@ -100,6 +100,21 @@ PeriodicSolution ShootingEquations::solution(const std::string &method) const
   return solution;
 }
 
+namespace
+{
+
+/// Multipliers that differences do not tell become zero.
+void note_differences(PeriodicSolution &solution)
+{
+  const Eigen::ArrayXd size  = solution.multipliers.cwiseAbs();
+  const auto           known = size >= std::min(PassageDifferences::share, size.maxCoeff());
+  solution.notes.push_back("the " + std::to_string(known.count()) +
+                           " largest multipliers come from differences of periods, to about 0.001; the others are 0");
+  solution.multipliers = known.select(solution.multipliers.array(), std::complex<double>(0.));
+}
+
+} // namespace
+
 PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions &integration,
                              const PeriodPassage &passage, double closing)
 {
@@ -116,6 +131,8 @@ PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions
   solution.trivial_multiplier = problem.period_is_unknown();
   if (passage.monodromy.size() > 0 && passage.monodromy.rows() == passage.monodromy.cols())
     solution.multipliers = multipliers_of(passage.monodromy, problem);
+  if (passage.runs > 1)
+    note_differences(solution);
   for (const std::string &event : passage.grazing)
     solution.notes.push_back("grazing: " + event +
                              ": the motion touches this event instead of crossing it; stability is one-sided");
@@ -184,25 +201,33 @@ std::string free_motion(const MatrixXd &jacobian, const LinearSystem &linear)
 PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &problem, VectorXd z,
                        const PeriodicOptions &options)
 {
+  const bool with_motion = equations.flow().has_tangents(); // else its matrix costs passages, and is kept
+  double     before = 0., after = 0.;
   const auto length = [&](const VectorXd &next)
   {
-    equations.evaluate(next, true);
-    return equations.residual().norm();
+    equations.evaluate(next, with_motion);
+    return after = equations.residual().norm();
   };
   const auto step = [&](NewtonResult &newton) -> NewtonStep
   {
     if (equations.closing() <= options.tolerance || problem.interrupted())
       return {};
+    constexpr double good = 0.3; // residual after a step, of that before, with which its matrix is kept
+    if (!with_motion && !(newton.iterations > 0 && after < good * before))
+      equations.evaluate(z, true);
     const VectorXd dz = -equations.jacobian().partialPivLu().solve(equations.residual());
     if (!dz.allFinite())
       give_up(equations, problem, newton.iterations);
-    return {dz, equations.residual().norm()};
+    before = equations.residual().norm();
+    return {dz, before};
   };
   length(z);
   const int        iterations    = solve_by_newton(z, options.iterations, step, length).iterations;
   constexpr double as_integrated = 1e-7; // closing error that rounding and the steps' tolerance may leave at worst
   if (!(equations.closing() <= std::max(options.tolerance, as_integrated)))
     give_up(equations, problem, iterations);
+  if (!with_motion)
+    equations.evaluate(z, true); // for the multipliers
   PeriodicSolution solution = equations.solution("shooting");
   solution.work.iterations  = iterations;
   note_residual(solution, options.tolerance);

@@ -1,5 +1,6 @@
 #include "coupling/periodic/shooting/shooting_method.h"
 
+#include "coupling/integration/step/consistent_start.h"
 #include "coupling/periodic/newton.h"
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting/multiple_shooting.h"
@@ -110,17 +111,37 @@ PeriodicSolution shoot_slow(const PeriodicProblem &problem, DominantSubspace &sl
 namespace
 {
 
-/// From a state at the end of the lead-in over the period in one passage, else in segments.
+/// From a state at the end of the lead-in over the period in one passage.
+PeriodicSolution shoot_once(const PeriodicProblem &problem, const PeriodicGuess &near, const PeriodicOptions &options)
+{
+  ShootingEquations equations(problem, options.integration);
+  PeriodicSolution  found = shoot(equations, problem, equations.unknowns(near.q, near.v, near.period), options);
+  refuse_rest(problem, near, found);
+  return found;
+}
+
+/// Why joints cannot be closed at a neighbouring start: a singular M; empty: they can.
+std::string why_no_start(const SecondOrderSystem &system)
+{
+  try
+  {
+    ConsistentStart(system, "shooting by differences of periods");
+    return "";
+  }
+  catch (const std::invalid_argument &singular)
+  {
+    return std::string(singular.what()) + "; use --method settling";
+  }
+}
+
+/// The same, else in segments.
 PeriodicSolution shoot_any_way(const PeriodicProblem &problem, const PeriodicGuess &near,
                                const PeriodicOptions &options)
 {
   std::string failure;
   try
   {
-    ShootingEquations equations(problem, options.integration);
-    PeriodicSolution  found = shoot(equations, problem, equations.unknowns(near.q, near.v, near.period), options);
-    refuse_rest(problem, near, found);
-    return found;
+    return shoot_once(problem, near, options);
   }
   catch (const SearchInterrupted &)
   {
@@ -159,11 +180,17 @@ public:
   std::string meaning() const override
   {
     return "Newton's method on q(T) - q(0), q'(T) - q'(0) (5.5.4/1), its matrix by tangents integrated along with the "
-           "motion, through events by saltation.";
+           "motion, through events by saltation; by differences of periods if the integrator has no tangents.";
   }
   std::string refuses(const PeriodicProblem &problem) const override
   {
-    return why_not_propagated(*problem.system, "settling");
+    if (why_not_propagated(*problem.system, "settling").empty())
+      return "";
+    constexpr int most = 1000; // DOFs: the LU of twice as many rows costs as much as a period, of which it takes many
+    if (problem.turn.size() > most)
+      return "shooting by differences of periods: " + std::to_string(problem.turn.size()) + " DOFs, above " +
+             std::to_string(most) + "; use --method settling";
+    return problem.system->joints().n_rows() > 0 ? why_no_start(*problem.system) : "";
   }
   std::vector<PeriodicOption> options() const override { return {lead_in_option()}; }
   bool                        integrates() const override { return true; }
@@ -171,17 +198,18 @@ public:
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override
   {
+    PeriodFlow flow(problem, options.integration);
     // Of large frames segments would need the tangents of all motions.
-    if (DominantSubspace motions(problem); options.segments == 0 && mostly_fast(motions, problem))
-      return {shoot_slow(problem, motions, guess, options)};
+    if (flow.has_tangents() && options.segments == 0)
+      if (DominantSubspace motions(problem); mostly_fast(motions, problem))
+        return {shoot_slow(problem, motions, guess, options)};
     PeriodicGuess near = guess;
-    {
-      PeriodFlow flow(problem, options.integration);
-      lead_in(flow, problem, options, near);
-    }
+    lead_in(flow, problem, options, near);
     if (options.segments > 0)
       return {shoot_in_segments(problem, near, options)};
-    return {shoot_any_way(problem, near, options)};
+    if (flow.has_tangents())
+      return {shoot_any_way(problem, near, options)};
+    return {shoot_once(problem, near, options)};
   }
 };
 

@@ -144,7 +144,7 @@ TEST(GearedRotors, ACrankBehindABeltHasTheExtremesToWhichARunSettles)
   }
 }
 
-/// An ideal gear instead of the belt: its joint tells the ratio, and settling is what can treat it.
+/// An ideal gear instead of the belt: its joint tells the ratio; shooting takes differences of periods.
 TEST(GearedRotors, AnIdealGearOfAnyRatioIsFoundInItsJoint)
 {
   const std::string text =
@@ -155,10 +155,20 @@ TEST(GearedRotors, AnIdealGearOfAnyRatioIsFoundInItsJoint)
       element("load", "spring-damper", {{"from", "wheel"}, {"about", "[0, 1, 0]"}, {"damping", "0.3 N m s/rad"}}) +
       test::quoted("[start]\nrule = 'given'\nv = { motor = '130 rad/s' }\n[run]\nmethod = 'bdf'\ntolerance = 1e-8\n"
                    "end = '1 s'\n[output.signals]\nw = 'motor.speed'\n");
-  const PeriodicResult result = by("", text);
-  ASSERT_EQ(result.entries.size(), 1u) << result.failure;
-  const double w = 40. / (0.3 + 0.3 / (3.7 * 3.7));
-  EXPECT_NEAR(std::abs(result.entries[0].signals[0].mean), w, 1e-5 * w);
+  const double w        = 40. / (0.3 + 0.3 / (3.7 * 3.7)),
+               of_speed = -0.3 * (1. + 1. / (3.7 * 3.7)) / (0.02 + 0.4 / (3.7 * 3.7));
+  for (const std::string method : {"", "settling"})
+  {
+    const PeriodicResult result = by(method, text);
+    ASSERT_EQ(result.entries.size(), 1u) << result.failure;
+    const PeriodicEntry &entry = result.entries[0];
+    EXPECT_NEAR(std::abs(entry.signals[0].mean), w, 1e-5 * w);
+    if (method.empty())
+    {
+      EXPECT_EQ(entry.solution.method, "shooting");
+      EXPECT_NEAR(entry.solution.largest_multiplier(), std::exp(of_speed * entry.solution.period), 1e-3);
+    }
+  }
 }
 
 /// q of an interface whose row is that of -ux: the values by the names of coordinates are those of signals, and a
