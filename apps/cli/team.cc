@@ -73,8 +73,8 @@ MpiRun::~MpiRun()
 void MpiRun::tell_idle() const
 {
   if (launch_.size > 1 && launch_.rank == 0 && !coupling::plugin_is_loaded("libgestell_frame.so"))
-    std::cerr << "gestell: ranks without work: " << launch_.size - 1 << " of " << launch_.size
-              << "; there was no frame to compute\n";
+    std::cerr << "gestell: ranks without work: " + std::to_string(launch_.size - 1) + " of " +
+                     std::to_string(launch_.size) + "; there was no frame to compute\n"; // at once: mpirun mixes lines
 }
 
 bool MpiRun::serves() const

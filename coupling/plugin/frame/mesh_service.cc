@@ -190,7 +190,8 @@ public:
     if (!parted)
       return coupling::assemble(mesh, frame, options, progress, false).reduced;
     if (const int ranks = ranks_of_factors().size(); ranks > 1)
-      std::cerr << "gestell: ranks without work while the parts are reduced: " << ranks - 1 << " of " << ranks << '\n';
+      std::cerr << "gestell: ranks without work while the parts are reduced: " + std::to_string(ranks - 1) + " of " +
+                       std::to_string(ranks) + '\n';
     use_blas_threads(1); // processes side by side instead: equal results for any number of them
     const double fitting      = std::max(1., fem::available_memory() / parted->memory.part);
     ReducedModel reduced      = reduce_in_parts(discretisation.matrices, parted->parts, options,
