@@ -176,7 +176,7 @@ bool MachineJoints::depends(std::size_t b, int r, int k) const
   return parts_.placed[parts_.joints[b]].joint->depends(r, k);
 }
 
-/// Bodies have several joints: their cosines and sines are computed once.
+/// Bodies have several joints: their cosines and sines are computed once, except where a derivative moves one measure.
 void MachineJoints::turn(const LocalState &state) const
 {
   turns_.resize(1 + parts_.angles.size());
@@ -191,7 +191,12 @@ mechanism::LocalMotion MachineJoints::motion(const MachineParts::PlacedElement &
                                              mechanism::Turn *turns) const
 {
   for (int body = 0; body < 2; ++body)
+  {
     turns[body] = turns_[part.angles[body]];
+    if (const double phi = state.u[part.angles_of_it[body]];
+        part.angles[body] > 0 && phi != state.u[parts_.angles[part.angles[body] - 1]])
+      turns[body] = {std::cos(phi), std::sin(phi)};
+  }
   mechanism::LocalMotion motion = part.motion(state, parts_.by_history);
   motion.turns                  = turns;
   return motion;

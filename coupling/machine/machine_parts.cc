@@ -230,7 +230,8 @@ void MachineParts::place_elements(int n)
             angles.push_back(n_measures + own[body]);
             found = known_angles.insert(found, phi);
           }
-          placed.back().angles[body] = 1 + int(found - known_angles.begin());
+          placed.back().angles[body]       = 1 + int(found - known_angles.begin());
+          placed.back().angles_of_it[body] = n_measures + own[body];
         }
     }
     else

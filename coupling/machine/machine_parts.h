@@ -49,7 +49,8 @@ struct MachineParts
     const mechanism::Commands   *commands  = element->commands();
     bool                         drives    = element->work() == mechanism::Work::input;
 
-    int angles[2] = {0, 0}; ///< of an ideal joint: of its bodies in MachineParts::angles, counted from 1; 0: none
+    int angles[2]       = {0, 0}; ///< of an ideal joint: of its bodies in MachineParts::angles, counted from 1; 0: none
+    int angles_of_it[2] = {0, 0}; ///< the same as measures of the joint
 
     /// For dry friction in a joint, in the history of the machine: 1 if others stop its motion; then the sign of
     /// sliding before it stuck.
