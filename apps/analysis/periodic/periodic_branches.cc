@@ -142,6 +142,7 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
   along.points                       = request.points > 0 ? request.points : usual_points;
   constexpr int most_turns_per_point = 10; // points of a branch, of those from end to end
   along.most                         = std::max(along.most, most_turns_per_point * along.points);
+  along.tolerance                    = std::max(along.tolerance, options.tolerance);
   BranchTable table(family, result);
   const auto  on_point = [&](const coupling::BranchPoint &point)
   {
