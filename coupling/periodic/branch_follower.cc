@@ -150,7 +150,7 @@ bool BranchFollower::correct(VectorXd z, double lambda, const VectorXd &across, 
       dx.resize(0);
       continue;
     }
-    constexpr double slow          = 0.5;  // contraction above which the derivatives are taken anew
+    constexpr double slow          = 0.5;  // contraction above which the derivatives are computed again
     constexpr double as_integrated = 1e-6; // closing error that jumps of fixed steps from grid to grid may leave
     const bool       moved         = dx.size() > 0;
     const bool       stalls        = moved && here > slow * before;

@@ -30,9 +30,8 @@ public:
     sizes_                      = sizes_.cwiseMax(largest > 0. ? least_size * largest : 1.);
   }
 
-  Index           size() const { return D_.cols(); }
-  const MatrixXd &images() const { return Y_; }
-  VectorXd        residual() const { return end_.z - z_; }
+  Index    size() const { return D_.cols(); }
+  VectorXd residual() const { return end_.z - z_; }
 
   /// The direction along the joints, with its image.  Of one that grows, the smallest of the differences forwards,
   /// backwards and central: those across a jump of the steps are larger.

@@ -229,8 +229,8 @@ void Ranks::abort(const std::string &message) const
   const std::string line = "gestell: the computation failed on rank " + std::to_string(rank_) + " of " +
                            std::to_string(size_) + ": " + message + '\n';
   std::cerr << line << std::flush;
-  constexpr std::chrono::milliseconds forwarded{
-      500}; // mpirun of Open MPI 5 drops what it has not passed on when a rank aborts
+  // mpirun of Open MPI 5 drops what it has not passed on when a rank aborts.
+  constexpr std::chrono::milliseconds forwarded{500};
   std::this_thread::sleep_for(forwarded);
   constexpr int exit_failed = 3; // as the program's own: the computation failed
   MPI_Abort(comm(), exit_failed);

@@ -109,7 +109,7 @@ void note_differences(PeriodicSolution &solution)
   const Eigen::ArrayXd size  = solution.multipliers.cwiseAbs();
   const auto           known = size >= std::min(PassageDifferences::share, size.maxCoeff());
   solution.notes.push_back("the " + std::to_string(known.count()) +
-                           " largest multipliers come from differences of periods, to about 0.001; the others are 0");
+                           " largest multipliers come from differences of periods, to about 0.01; the others are 0");
   solution.multipliers = known.select(solution.multipliers.array(), std::complex<double>(0.));
 }
 

@@ -1,6 +1,5 @@
 #include "coupling/periodic/continuation.h"
 #include "coupling/periodic/periodic_methods.h"
-#include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting/shooting_method.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/play_system.h"
