@@ -3,6 +3,12 @@
 namespace gestell::mechanism
 {
 
+/// Cosine and sine of the angle of a body; of one that does not turn: 1, 0.
+struct Turn
+{
+  double cosine = 1., sine = 0.;
+};
+
 /// Motion of the k measures of one element at one instant: u [k] in m or rad, its rates v = u' and a = u''.
 struct LocalMotion
 {
@@ -23,6 +29,9 @@ struct LocalMotion
   /// Multipliers of an ideal joint [n_constraints()], or of the joint with the element's friction; null for all others,
   /// and if they are unknown.
   const double *lambda = nullptr;
+
+  /// Of both bodies of an ideal joint, see Constraint::angles(); null: not computed yet.
+  const Turn *turns = nullptr;
 };
 
 } // namespace gestell::mechanism

@@ -89,11 +89,22 @@ MatrixXd inverse(const MatrixXd &A, const std::vector<int> &names)
 class InverseSolver final : public LinearSolver
 {
 public:
-  explicit InverseSolver(MatrixXd A_inverse) : A_inverse_(std::move(A_inverse)) {}
-  void solve(const VectorXd &f, VectorXd &x) const override { x.noalias() = A_inverse_ * f; }
+  explicit InverseSolver(MatrixXd A_inverse) : A_inverse_(std::move(A_inverse))
+  {
+    if (A_inverse_.isDiagonal(0.))
+      alone_ = A_inverse_.diagonal();
+  }
+  void solve(const VectorXd &f, VectorXd &x) const override
+  {
+    if (alone_.size() > 0)
+      x = alone_.cwiseProduct(f);
+    else
+      x.noalias() = A_inverse_ * f;
+  }
 
 private:
   MatrixXd A_inverse_;
+  VectorXd alone_; ///< its diagonal if it has no other entries, as for bodies in a plane; else empty
 };
 
 /// to = entries of x at the positions `which`.
@@ -295,7 +306,9 @@ DenseBase::DenseBase(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C, co
 DenseBase::Blocks DenseBase::blocks_of(const MatrixXd &A) const
 {
   const auto LL = A.block(L_.first, L_.first, L_.n, L_.n);
-  Blocks     blocks{A(N_, N_), A.middleRows(L_.first, L_.n)(Eigen::all, N_), LL.diagonal(), LL};
+  Blocks     blocks{A(N_, N_), {}, A.middleRows(L_.first, L_.n)(Eigen::all, N_), LL.diagonal(), LL};
+  if (blocks.NN.isDiagonal(0.))
+    blocks.alone = blocks.NN.diagonal();
   blocks.LN = blocks.LN.leftCols(last_column(blocks.LN)).eval(); // bodies are not coupled to modes
   if (is_diagonal(blocks.LL))
     blocks.LL.resize(0, 0);
@@ -304,10 +317,19 @@ DenseBase::Blocks DenseBase::blocks_of(const MatrixXd &A) const
 
 void DenseBase::multiply(const Blocks &A, const VectorXd &x, VectorXd &y) const
 {
+  const bool is_diagonal = A.alone.size() == A.NN.rows();
+  if (L_.n == 0 && is_diagonal)
+  {
+    y = A.alone.cwiseProduct(x);
+    return;
+  }
   const auto x_L = x.segment(L_.first, L_.n);
   auto       y_L = y.segment(L_.first, L_.n);
   gather(x, N_, x_N_);
-  y_N_.noalias() = A.NN * x_N_;
+  if (is_diagonal)
+    y_N_ = A.alone.cwiseProduct(x_N_);
+  else
+    y_N_.noalias() = A.NN * x_N_;
   if (A.LL.size() > 0)
     y_L.noalias() = A.LL * x_L;
   else

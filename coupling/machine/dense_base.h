@@ -59,6 +59,7 @@ private:
   struct Blocks
   {
     Eigen::MatrixXd NN;       // [n_N x n_N]
+    Eigen::VectorXd alone;    // [n_N] of NN if it is diagonal, as for bodies in a plane; else empty
     Eigen::MatrixXd LN;       // [n_L x k] its first columns, up to the last non-zero one; empty if there is none
     Eigen::VectorXd diagonal; // [n_L] of LL
     Eigen::MatrixXd LL;       // [n_L x n_L]; empty if diagonal

@@ -1,6 +1,7 @@
 #include "coupling/machine/machine_system.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gestell::coupling
 {
@@ -170,22 +171,57 @@ const std::vector<ConstraintBlock> &MachineJoints::blocks() const
   return parts_.joint_blocks;
 }
 
+bool MachineJoints::depends(std::size_t b, int r, int k) const
+{
+  return parts_.placed[parts_.joints[b]].joint->depends(r, k);
+}
+
+/// Bodies have several joints: their cosines and sines are computed once, except where a derivative moves one measure.
+void MachineJoints::turn(const LocalState &state) const
+{
+  turns_.resize(1 + parts_.angles.size());
+  for (std::size_t i = 0; i < parts_.angles.size(); ++i)
+  {
+    const double phi = state.u[parts_.angles[i]];
+    turns_[1 + i]    = {std::cos(phi), std::sin(phi)};
+  }
+}
+
+mechanism::LocalMotion MachineJoints::motion(const MachineParts::PlacedElement &part, const LocalState &state,
+                                             mechanism::Turn *turns) const
+{
+  for (int body = 0; body < 2; ++body)
+  {
+    turns[body] = turns_[part.angles[body]];
+    if (const double phi = state.u[part.angles_of_it[body]];
+        part.angles[body] > 0 && phi != state.u[parts_.angles[part.angles[body] - 1]])
+      turns[body] = {std::cos(phi), std::sin(phi)};
+  }
+  mechanism::LocalMotion motion = part.motion(state, parts_.by_history);
+  motion.turns                  = turns;
+  return motion;
+}
+
 void MachineJoints::constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const
 {
+  turn(state);
+  mechanism::Turn turns[2];
   for (std::size_t i = 0; i < parts_.joint_blocks.size(); ++i)
   {
     const auto &part = parts_.placed[parts_.joints[i]];
-    part.joint->constraint(part.motion(state, parts_.by_history), parts_.history_of(part),
-                           g.data() + part.first_constraint, G[i].data());
+    part.joint->constraint(motion(part, state, turns), parts_.history_of(part), g.data() + part.first_constraint,
+                           G[i].data());
   }
 }
 
 void MachineJoints::rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const
 {
+  turn(state);
+  mechanism::Turn turns[2];
   for (const int joint : parts_.joints)
   {
     const auto &part = parts_.placed[joint];
-    part.joint->constraint_rates(part.motion(state, parts_.by_history), parts_.history_of(part),
+    part.joint->constraint_rates(motion(part, state, turns), parts_.history_of(part),
                                  rate.data() + part.first_constraint, bias.data() + part.first_constraint);
   }
 }

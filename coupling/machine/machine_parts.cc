@@ -194,11 +194,13 @@ void MachineParts::assemble_mechanism(int n)
 
 void MachineParts::place_elements(int n)
 {
-  int      n_measures = 0, n_history = 0, n_constraints = 0;
-  Triplets columns;
+  int                  n_measures = 0, n_history = 0, n_constraints = 0;
+  Triplets             columns;
+  std::vector<Measure> known_angles;
   placed.clear();
   joints.clear();
   joint_blocks.clear();
+  angles.clear();
   force_blocks.clear();
   for (const ElementPlacement &placement : elements)
   {
@@ -217,6 +219,20 @@ void MachineParts::place_elements(int n)
       joints.push_back(int(placed.size()) - 1);
       joint_blocks.push_back({n_constraints, n_c, n_measures, k, placement.element->size_of_terms()});
       n_constraints += n_c;
+      const auto own = placed.back().joint->angles();
+      for (int body = 0; body < 2; ++body)
+        if (own[body] >= 0)
+        {
+          const Measure &phi   = placement.measures[own[body]];
+          auto           found = std::find(known_angles.begin(), known_angles.end(), phi);
+          if (found == known_angles.end())
+          {
+            angles.push_back(n_measures + own[body]);
+            found = known_angles.insert(found, phi);
+          }
+          placed.back().angles[body]       = 1 + int(found - known_angles.begin());
+          placed.back().angles_of_it[body] = n_measures + own[body];
+        }
     }
     else
     {

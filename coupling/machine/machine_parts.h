@@ -49,6 +49,9 @@ struct MachineParts
     const mechanism::Commands   *commands  = element->commands();
     bool                         drives    = element->work() == mechanism::Work::input;
 
+    int angles[2]       = {0, 0}; ///< of an ideal joint: of its bodies in MachineParts::angles, counted from 1; 0: none
+    int angles_of_it[2] = {0, 0}; ///< the same as measures of the joint
+
     /// For dry friction in a joint, in the history of the machine: 1 if others stop its motion; then the sign of
     /// sliding before it stuck.
     int stop = -1;
@@ -157,6 +160,7 @@ struct MachineParts
   std::vector<PlacedElement>   placed;
   std::vector<int>             joints; ///< ideal ones, as indices of `placed`
   std::vector<ConstraintBlock> joint_blocks;
+  std::vector<int>             angles; ///< measures that are angles of bodies in joints, each once
   std::vector<ForceBlock>      force_blocks;
   Eigen::VectorXd              history;
   std::vector<PlacedGuard>     guards; ///< of elements, then of switches

@@ -65,11 +65,17 @@ public:
   const std::vector<ConstraintBlock> &blocks() const override;
   void        constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const override;
   void        rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const override;
+  bool        depends(std::size_t b, int r, int k) const override;
   bool        wants_multipliers() const override;
   std::string name(int i) const override;
 
 private:
-  const MachineParts &parts_;
+  void                   turn(const LocalState &state) const;
+  mechanism::LocalMotion motion(const MachineParts::PlacedElement &part, const LocalState &state,
+                                mechanism::Turn *turns) const;
+
+  const MachineParts                  &parts_;
+  mutable std::vector<mechanism::Turn> turns_; ///< of no turn, then of parts_.angles
 };
 
 /// History and guards of elements, joints and switches.

@@ -26,6 +26,17 @@ void require_size(const SparseBase::Matrix &A, const char *name, Eigen::Index n)
                                 std::to_string(n) + ", as M has that many rows");
 }
 
+/// Of bodies in a plane without springs of the base system: every coordinate alone.
+class DiagonalSolver final : public LinearSolver
+{
+public:
+  explicit DiagonalSolver(VectorXd inverse) : inverse_(std::move(inverse)) {}
+  void solve(const VectorXd &f, VectorXd &x) const override { x = inverse_.cwiseProduct(f); }
+
+private:
+  VectorXd inverse_;
+};
+
 class SparseSolver final : public LinearSolver
 {
 public:
@@ -102,6 +113,8 @@ void SparseBase::stiffness_times(const VectorXd &x, VectorXd &y) const
 std::unique_ptr<LinearSolver> SparseBase::factorise(double w_M, double w_B, double w_C) const
 {
   const Matrix S = w_M * M_ + w_B * B_ + w_C * C_;
+  if (const VectorXd d = S.diagonal(); modal_.d.size() == 0 && S.nonZeros() == d.size() && (d.array() > 0.).all())
+    return std::make_unique<DiagonalSolver>(d.cwiseInverse());
   try
   {
     return std::make_unique<SparseSolver>(S, w_B, modal_);

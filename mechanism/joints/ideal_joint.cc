@@ -9,8 +9,6 @@
 namespace gestell::mechanism
 {
 
-using MovedVector = Placement::MovedVector;
-
 IdealJoint::IdealJoint(const Placement &first, const Placement &second, std::vector<Equation> equations,
                        std::shared_ptr<const MotionLaw> law)
     : ConstraintElement(std::move(law)), first_(first), second_(second), equations_(std::move(equations))
@@ -25,72 +23,82 @@ IdealJoint::IdealJoint(const Placement &first, const Placement &second, std::vec
               double(equation.measure.ratios.size()), "that of the measures, " + std::to_string(n_measures()));
     if (equation.measure.form == RelativeMeasure::Form::distance)
       require(equation.offset >= 0., "joint " + equation.name, "distance [m]", equation.offset, "zero or positive");
+    const RelativeMeasure &s = equation.measure;
+    plain_.emplace_back();
+    if (s.form == RelativeMeasure::Form::along && s.carrier == RelativeMeasure::Carrier::space)
+    {
+      plain_.back() = Plain{{first_, -s.a}, {second_, s.a}};
+      ++n_plain_;
+    }
   }
   require(driven == is_driven(), "joint", "number of motion laws", is_driven() ? 1. : 0.,
           "one if an equation is driven, else none");
 }
 
-namespace
+IdealJoint::Points::Points(const IdealJoint &joint, const LocalMotion &motion, const double *v)
+    : u_1(motion.u), u_2(u_1 + joint.first_.n_measures()), v_1(v), v_2(v ? v + joint.first_.n_measures() : nullptr)
 {
-
-/// a . (x_2 - x_1) with a fixed in space: the usual equation of a pin, without the general measure's overhead.
-bool is_plain(const RelativeMeasure &measure)
-{
-  return measure.form == RelativeMeasure::Form::along && measure.carrier == RelativeMeasure::Carrier::space;
+  if (joint.n_plain_ > 0)
+  {
+    turn_1 = motion.turns ? motion.turns[0] : PointAlong::turn(joint.first_, u_1);
+    turn_2 = motion.turns ? motion.turns[1] : PointAlong::turn(joint.second_, u_2);
+  }
+  if (joint.n_plain_ == joint.n_constraints())
+    return;
+  joint.first_.position(u_1, v_1, x_1);
+  joint.second_.position(u_2, v_2, x_2);
 }
-
-/// Its gradient, in every `stride`-th entry.
-void set_gradient(const Vector3d &a, const MovedVector &x_1, const MovedVector &x_2, double *gradient, int stride)
-{
-  for (Eigen::Index k = 0; k < x_1.J.cols(); ++k, gradient += stride)
-    *gradient = -a.dot(x_1.J.col(k));
-  for (Eigen::Index k = 0; k < x_2.J.cols(); ++k, gradient += stride)
-    *gradient = a.dot(x_2.J.col(k));
-}
-
-} // namespace
 
 void IdealJoint::constraint(const LocalMotion &motion, const double *history, double *g, double *G) const
 {
-  const int   n_c = n_constraints();
-  MovedVector x_1, x_2;
-  first_.position(motion.u, nullptr, x_1);
-  second_.position(motion.u + first_.n_measures(), nullptr, x_2);
+  const int    n_c = n_constraints();
+  const Points now(*this, motion, nullptr);
   const double f = is_driven() ? prescribed(motion.t, history).value : 0.;
   for (int i = 0; i < n_c; ++i)
   {
     const Equation &equation = equations_[i];
     double          s        = 0.;
-    if (is_plain(equation.measure))
-    {
-      set_gradient(equation.measure.a, x_1, x_2, G + i, n_c);
-      s = equation.measure.a.dot(x_2.value - x_1.value);
-    }
+    if (const auto &plain = plain_[i])
+      s = plain->first.value(now.u_1, now.turn_1, G + i, n_c) +
+          plain->second.value(now.u_2, now.turn_2, G + i + n_c * first_.n_measures(), n_c);
     else
-      s = equation.measure.evaluate({first_, second_, x_1, x_2}, motion.u, nullptr, G + i, n_c).s;
+      s = equation.measure.evaluate({first_, second_, now.x_1, now.x_2}, motion.u, nullptr, G + i, n_c).s;
     g[i] = s - equation.offset - (equation.driven ? f : 0.);
   }
 }
 
 void IdealJoint::constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const
 {
-  MovedVector x_1, x_2;
-  first_.position(motion.u, motion.v, x_1);
-  second_.position(motion.u + first_.n_measures(), motion.v + first_.n_measures(), x_2);
+  const Points           now(*this, motion, motion.v);
   const PrescribedMotion f = prescribed(motion.t, history);
   double                 G[PlacedMeasure::max_measures];
   for (int i = 0; i < n_constraints(); ++i)
   {
     const Equation &equation = equations_[i];
-    bias[i]                  = is_plain(equation.measure)
-                                   ? equation.measure.a.dot(x_2.bias - x_1.bias)
-                                   : equation.measure.evaluate({first_, second_, x_1, x_2}, motion.u, motion.v, G).bias;
-    rate[i]                  = 0.;
+    if (const auto &plain = plain_[i])
+      bias[i] = plain->first.bias(now.u_1, now.v_1, now.turn_1) + plain->second.bias(now.u_2, now.v_2, now.turn_2);
+    else
+      bias[i] = equation.measure.evaluate({first_, second_, now.x_1, now.x_2}, motion.u, motion.v, G).bias;
+    rate[i] = 0.;
     if (!equation.driven)
       continue;
     rate[i] = -f.rate;
     bias[i] -= f.acceleration;
   }
+}
+
+std::array<int, 2> IdealJoint::angles() const
+{
+  const bool needed = n_plain_ > 0;
+  return {needed && first_.turns() ? first_.n_measures() - 1 : -1, needed && second_.turns() ? n_measures() - 1 : -1};
+}
+
+bool IdealJoint::depends(int equation, int measure) const
+{
+  const int n_1 = first_.n_measures();
+  if (const auto &plain = plain_[equation])
+    return measure < n_1 ? plain->first.depends(measure) : plain->second.depends(measure - n_1);
+  return true;
 }
 
 double IdealJoint::driven_value(const double *u) const

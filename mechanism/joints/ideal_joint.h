@@ -1,9 +1,11 @@
 #pragma once
 
 #include "mechanism/joints/constraint_element.h"
+#include "mechanism/measures/point_along.h"
 #include "mechanism/measures/relative_measure.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,7 +45,9 @@ public:
   void   constraint_rates(const LocalMotion &motion, const double *history, double *rate, double *bias) const override;
   double size_of_terms() const override;
   void   geometric(const LocalMotion &motion, const double *history, double *K) const override;
-  std::string constraint_name(int i) const override { return equations_[i].name; }
+  std::array<int, 2> angles() const override;
+  bool               depends(int equation, int measure) const override;
+  std::string        constraint_name(int i) const override { return equations_[i].name; }
 
   double driven_value(const double *u) const override;
 
@@ -52,8 +56,24 @@ public:
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  Placement             first_, second_;
-  std::vector<Equation> equations_;
+  /// -a . x_1 and a . x_2 of an equation along a direction a fixed in space: the usual one of a pin.
+  struct Plain
+  {
+    PointAlong first, second;
+  };
+  /// Both points at an instant, as far as the equations need them; v null: without rates.
+  struct Points
+  {
+    Points(const IdealJoint &joint, const LocalMotion &motion, const double *v);
+    const double          *u_1, *u_2, *v_1, *v_2;
+    Turn                   turn_1, turn_2;
+    Placement::MovedVector x_1, x_2;
+  };
+
+  Placement                         first_, second_;
+  std::vector<Equation>             equations_;
+  std::vector<std::optional<Plain>> plain_; ///< of each equation
+  int                               n_plain_ = 0;
 };
 
 } // namespace gestell::mechanism

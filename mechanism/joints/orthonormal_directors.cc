@@ -51,6 +51,11 @@ void OrthonormalDirectors::constraint_rates(const LocalMotion &motion, const dou
   }
 }
 
+bool OrthonormalDirectors::depends(int equation, int measure) const
+{
+  return measure / 3 == products[equation].i || measure / 3 == products[equation].j;
+}
+
 void OrthonormalDirectors::geometric(const LocalMotion &motion, const double *, double *K) const
 {
   Eigen::Map<Eigen::Matrix<double, 9, 9>> stiffness(K);

@@ -32,6 +32,7 @@ public:
 
   const Structure *structure() const override { return this; }
   void             geometric(const LocalMotion &motion, const double *history, double *K) const override;
+  bool             depends(int equation, int measure) const override;
   std::string      constraint_name(int i) const override;
 
   bool                  needs_multipliers(int) const override { return false; }

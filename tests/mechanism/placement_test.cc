@@ -2,6 +2,7 @@
 
 #include "mechanism/facets.h"
 #include "mechanism/joints/orthonormal_directors.h"
+#include "mechanism/measures/point_along.h"
 #include "mechanism/measures/relative_measure.h"
 #include "tests/support/test.h"
 
@@ -73,6 +74,33 @@ TEST(Placement, PositionsAndDirectionsMoveAsTheirDerivativesSay)
     check(x, position);
     check(e, turned);
   }
+}
+
+// The same numbers in another order of summation.
+TEST(Placement, APointAlongAFixedDirectionIsThatOfThePlacement)
+{
+  const Vector3d a(0.3, -1.2, 0.7);
+  auto           all = placements();
+  all.emplace_back(point, centre, std::vector<Placement::LinearMeasure>{{Vector3d::UnitX(), Vector3d::Zero()}}, axis);
+  for (const Placement &placement : all)
+  {
+    const int              n = placement.n_measures();
+    const Path             path(n);
+    Placement::MovedVector x;
+    placement.position(path.u.data(), path.v.data(), x);
+    const mechanism::PointAlong along(placement, a);
+    const auto                  turn     = mechanism::PointAlong::turn(placement, path.u.data());
+    VectorXd                    gradient = VectorXd::Zero(2 * n);
+    EXPECT_NEAR(along.value(path.u.data(), turn, gradient.data(), 2), a.dot(x.value), 1e-14);
+    EXPECT_NEAR(along.bias(path.u.data(), path.v.data(), turn), n > 0 ? a.dot(x.bias) : 0., 1e-14);
+    for (int i = 0; i < n; ++i)
+    {
+      EXPECT_NEAR(gradient[2 * i], a.dot(x.J.col(i)), 1e-14) << i;
+      EXPECT_EQ(gradient[2 * i + 1], 0.);
+      EXPECT_EQ(along.depends(i), gradient[2 * i] != 0.) << i;
+    }
+  }
+  EXPECT_FALSE(mechanism::PointAlong(all.back(), Vector3d::UnitZ()).depends(0)) << "it slides along x";
 }
 
 TEST(Placement, SmallMotionsAreThoseOfTranslationAndRotation)

@@ -1,4 +1,5 @@
 #include "coupling/integration/bdf/bdf.h"
+#include "coupling/integration/step/directions.h"
 #include "coupling/integration/system/acceleration_forces.h"
 
 #include <algorithm>
@@ -269,9 +270,13 @@ void Bdf::multistep(double t)
   Point &to = points_[(newest_ + 1) % capacity];
   try
   {
-    predict(&Point::u, &Point::u_rate, local_.u);
     if (implicit_.is_sparse())
+    {
       predict(&Point::q, &Point::v, to.q);
+      predict(&Point::lambda, nullptr, lambda_);
+    }
+    else
+      predict(&Point::u, &Point::u_rate, local_.u);
     implicit_.expect_good_predictions(options_.order <= 2 && n_past_ >= 3);
     formula_step(options_.order, points, t, options_.step, to);
     implicit_.expect_good_predictions(false);
@@ -289,6 +294,8 @@ void Bdf::multistep(double t)
       find_implied(past(0));
     else if (consistent_ && system_.joints().wants_multipliers())
     {
+      if (implicit_.is_sparse())
+        local_.lambda = lambda_;
       consistent_->find_multipliers(past(0).q, past(0).v, implicit_, local_, work_);
       keep_implied(past(0));
     }
@@ -300,15 +307,20 @@ void Bdf::multistep(double t)
   }
 }
 
-/// Predicts by extrapolation, one order higher than that of the first points.
+/// Predicts by extrapolation, one order higher than that of the first points.  Many joints are worth six points: in a
+/// smooth motion Newton's first correction is then so small that nothing turns by it.
 void Bdf::predict(Eigen::VectorXd Point::*x, Eigen::VectorXd Point::*rate, Eigen::VectorXd &to) const
 {
-  if (n_past_ >= 3)
+  if (implicit_.is_sparse() && n_past_ >= 6)
+    to = 6. * (past(0).*x + past(4).*x) - 15. * (past(1).*x + past(3).*x) + 20. * past(2).*x - past(5).*x;
+  else if (n_past_ >= 3)
     to = 3. * (past(0).*x - past(1).*x) + past(2).*x;
   else if (n_past_ == 2)
     to = 2. * past(0).*x - past(1).*x;
-  else
+  else if (rate)
     to = past(0).*x + options_.step * past(0).*rate;
+  else
+    to = past(0).*x;
 }
 
 void Bdf::formula_step(int order, const Point *const *past, double t, double step, Point &to)
@@ -345,11 +357,8 @@ void Bdf::formula_step(int order, const Point *const *past, double t, double ste
   to.p      = local_.p;
   to.lambda = local_.lambda;
   system_.linear().stiffness_times(to.q, product_);
-  to.w          = h_w_ + h_beta * (f_t_ - product_);
-  const auto &W = system_.forces().directions();
-  for (int j = 0; j < W.outerSize(); ++j)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it; ++it)
-      to.w[it.row()] += h_beta * it.value() * local_.p[j];
+  to.w = h_w_ + h_beta * (f_t_ - product_);
+  add_forces(system_.forces().directions(), h_beta, local_.p, to.w);
 }
 
 void Bdf::divided_step(const Point &from, double length, int halvings, Point &to)

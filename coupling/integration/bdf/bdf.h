@@ -112,6 +112,7 @@ private:
   bool                        cut_ = false; ///< the present instant is cut_point_, inside the last step
   LocalState                  local_, base_;
   Eigen::VectorXd             f_t_, f_, h_q_, h_w_, g_, g_rate_, product_;
+  Eigen::VectorXd             lambda_; ///< predicted multipliers, if the step is sparse
   mutable Eigen::VectorXd     q_inside_, v_inside_;
   bool                        load_known_ = false;
 

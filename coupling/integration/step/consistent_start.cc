@@ -76,7 +76,7 @@ ConsistentStart::ConsistentStart(const SecondOrderSystem &system, const std::str
   a_free_.setZero(n_u);
   correction_.setZero(n_u);
   scale_.setZero(n_u);
-  for (Eigen::VectorXd *x : {&g_, &rate_, &bias_, &shift_})
+  for (Eigen::VectorXd *x : {&g_, &rate_, &bias_})
     x->setZero(G_.n_rows());
   try
   {
@@ -148,7 +148,7 @@ void ConsistentStart::find_multipliers(const Eigen::VectorXd &q, const Eigen::Ve
 {
   const auto known = [&]
   {
-    if (!linear_ || !step_is_near_ || !system_.forces().held().empty() || system_.forces().need_multipliers())
+    if (!linear_ || !system_.forces().held().empty() || system_.forces().need_multipliers())
       return false;
     system_.forces().tangent_blocks(local, 0., 0., 1., local.p, tangent_);
     ++work.evaluations;
@@ -239,7 +239,6 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
 {
   if (G_.n_rows() == 0)
     return;
-  shift_.setZero();
   step_is_near_             = true;
   constexpr double rounding = std::numeric_limits<double>::epsilon();
   double           open     = std::numeric_limits<double>::infinity();

@@ -50,13 +50,14 @@ public:
              IntegrationWork &work);
 
   /// Writes the multipliers, forces and u'' where a step ends into local, as solve() computes them.  Almost
-  /// everything is known there: G from the step, lambda from its formula.  Condensed, u'' follows from tables.
+  /// everything is known there: G from the step, lambda about.  Condensed, u'' follows from tables.
   /// Sparse, the step's own factor corrects lambda until
   ///
   ///     g'' = G u'' + bias,     M a = f_t + W p - B q' - C q
   ///
-  /// is zero up to rounding; one correction is usual, because A differs from M by terms of the order of h.  If these
-  /// are large, if something sticks, or if a force depends on u'' or on multipliers, solve() is called.
+  /// is zero up to rounding; two corrections are usual, because A differs from M by terms of the
+  /// order of h.  If these are large, the factor is that of M with the same G.  If something sticks, or if a force
+  /// depends on u'' or on multipliers, solve() is called.
   void find_multipliers(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step, LocalState &local,
                         IntegrationWork &work);
 
@@ -81,7 +82,7 @@ private:
   static constexpr double converged        = 1e-12; ///< correction of u'', relative to the terms of its sum
   static constexpr int    max_iterations   = 25;
   static constexpr int    most_by_friction = 8 * max_iterations; ///< with friction in joints: linear convergence
-  static constexpr int    most_corrections = 4; ///< by the step's factor: more cost as much as a factor of M
+  static constexpr int    most_corrections = 3; ///< by the step's factor: more cost as much as a factor of M
 
   int               most_iterations() const;
   [[noreturn]] void fail_unconverged(double t) const; ///< g_ is the last change of the multipliers
@@ -93,6 +94,8 @@ private:
   void   follow(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ConstraintJacobian &G, LocalState &local);
   bool   follow_sparse(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step, LocalState &local,
                        IntegrationWork &work);
+  void   find_terms(const ConstraintJacobian &G, const LocalState &local);
+  bool   close_sparse(const SaddleMatrix &K, const ConstraintJacobian &G, LocalState &local, IntegrationWork &work);
   void   iterate(LocalState &local, IntegrationWork &work);
   void   prepare_hold(double t);
   void   condense();
@@ -109,17 +112,17 @@ private:
   Compliance                               D_;
   Eigen::VectorXd                          f_, product_, a_free_, correction_, scale_;
   ConstraintJacobian                       G_;
-  Eigen::VectorXd                          g_, rate_, bias_;    // [n_c]
-  Eigen::VectorXd                          tangent_;            ///< dp/du'' by blocks
-  std::unique_ptr<CondensedMatrix>         matrix_;             ///< null: sparse
-  std::unique_ptr<SaddleMatrix>            saddle_;             ///< null: condensed
-  Eigen::VectorXd                          y_, load_;           ///< [n + n_c + n_h], [n]
-  bool                                     linear_ = true;      ///< no force has depended on u'' or multipliers so far
-  Eigen::MatrixXd                          Y_B_, Y_C_;          ///< Y^T B, Y^T C [n_N x n]; empty until needed
-  Eigen::VectorXd                          a_load_, moved_;     ///< [n_N] Y^T f_t, Y^T (f_t - B q' - C q)
-  bool                                     load_known_ = false; ///< a_load_ is, of a constant load
-  Eigen::VectorXd                          compliance_;         ///< [n_u] diagonal of D; empty: condensed
-  Eigen::VectorXd                          shift_; ///< [n_c] from the multipliers of the formula to those of g'' = 0
+  Eigen::VectorXd                          g_, rate_, bias_;     // [n_c]
+  Eigen::VectorXd                          tangent_;             ///< dp/du'' by blocks
+  std::unique_ptr<CondensedMatrix>         matrix_;              ///< null: sparse
+  std::unique_ptr<SaddleMatrix>            saddle_;              ///< null: condensed
+  Eigen::VectorXd                          y_, load_;            ///< [n + n_c + n_h], [n]
+  bool                                     linear_ = true;       ///< no force has depended on u'' or multipliers so far
+  Eigen::MatrixXd                          Y_B_, Y_C_;           ///< Y^T B, Y^T C [n_N x n]; empty until needed
+  Eigen::VectorXd                          a_load_, moved_;      ///< [n_N] Y^T f_t, Y^T (f_t - B q' - C q)
+  bool                                     load_known_ = false;  ///< a_load_ is, of a constant load
+  Eigen::VectorXd                          terms_;               ///< [n_c] of g'' in close_sparse()
+  Eigen::VectorXd                          compliance_;          ///< [n_u] diagonal of D; empty: condensed
   bool                                     step_is_near_ = true; ///< the step's factor has corrected multipliers so far
   std::vector<int>                         holding_; ///< measures for which hold_f_ to delassus_ are computed
   Eigen::MatrixXd                          hold_f_, hold_v_, hold_q_; ///< M^-1 W_h, B M^-1 W_h, C M^-1 W_h [n x n_h]

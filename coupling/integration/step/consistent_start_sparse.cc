@@ -1,5 +1,7 @@
 #include "coupling/integration/step/consistent_start.h"
 
+#include "coupling/integration/step/directions.h"
+
 #include "coupling/integration/step/implicit_step.h"
 #include "coupling/integration/step/law_values.h"
 
@@ -9,32 +11,6 @@
 
 namespace gestell::coupling
 {
-
-namespace
-{
-
-/// The largest g'' compared with its terms: the bias, and G times the accelerations whose sum u'' is.
-double largest_opening(const Eigen::VectorXd &g, const Eigen::VectorXd &bias, const ConstraintJacobian &G,
-                       const LocalState &local, const Eigen::VectorXd &compliance)
-{
-  double largest = 0.;
-  for (std::size_t b = 0; b < G.blocks().size(); ++b)
-  {
-    const ConstraintBlock &block = G.blocks()[b];
-    for (int i = 0; i < block.n_rows; ++i)
-    {
-      const int row   = block.first_row + i;
-      double    terms = std::abs(bias[row]);
-      for (int k = 0, j = block.first_measure; k < block.n_measures; ++k, ++j)
-        terms += std::abs(G[b](i, k)) * std::max(std::abs(local.a[j]), compliance[j] * std::abs(local.p[j]));
-      if (!(std::abs(g[row]) <= largest * terms))
-        largest = std::abs(g[row]) / terms;
-    }
-  }
-  return largest;
-}
-
-} // namespace
 
 // Starts of systems with many joints: see ConsistentStart and SaddleMatrix for the equations.
 
@@ -59,7 +35,8 @@ void ConsistentStart::move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, doubl
   y_.tail(g_.size()) = -g_;
   saddle_->solve_in_place(y_);
   x += y_.head(x.size());
-  xi.noalias() += system_.forces().directions().transpose() * y_.head(x.size());
+  take_measures(system_.forces().directions(), y_, correction_);
+  xi += correction_;
 }
 
 /// The terms of the sum u'': |u''_free| and W^T M^-1 W |p|, the largest of all measures.
@@ -144,43 +121,67 @@ void ConsistentStart::find_compliance()
   }
 }
 
-/// The bias of the joints is in bias_.
+/// The bias of the joints is in bias_, and no force depends on u''.
 bool ConsistentStart::follow_sparse(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step,
                                     LocalState &local, IntegrationWork &work)
 {
-  const auto               &W = system_.forces().directions();
-  const SaddleMatrix       &K = *step.saddle();
   const ConstraintJacobian &G = step.jacobian();
   set_load(local.t, q, v);
-  y_.resize(K.size());
   rate_ = local.lambda;
-  local.lambda += shift_;
-  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  if (step_is_near_ && step.saddle()->has_factor() && close_sparse(*step.saddle(), G, local, work))
+    return true;
+  step_is_near_ = false;
+  local.lambda  = rate_;
+  saddle_->hold({});
+  saddle_->set_weights(1., 0., 0., 1.);
+  ++work.factorisations;
+  if (saddle_->factorise(tangent_, G) && close_sparse(*saddle_, G, local, work))
+    return true;
+  local.lambda = rate_;
+  return false;
+}
+
+/// The terms of g'' in every equation: the bias, and G times those of the sum u''.
+void ConsistentStart::find_terms(const ConstraintJacobian &G, const LocalState &local)
+{
+  correction_           = local.a.cwiseAbs().cwiseMax(compliance_.cwiseProduct(local.p.cwiseAbs()));
+  terms_                = bias_.cwiseAbs();
+  const double *entries = G.values().data();
+  for (const ConstraintBlock &block : G.blocks())
+    for (int k = 0; k < block.n_measures; ++k)
+      for (int i = 0; i < block.n_rows; ++i)
+        terms_[block.first_row + i] += std::abs(*entries++) * correction_[block.first_measure + k];
+}
+
+/// Corrects lambda by the factor of K until g'' is zero up to rounding in every equation.
+bool ConsistentStart::close_sparse(const SaddleMatrix &K, const ConstraintJacobian &G, LocalState &local,
+                                   IntegrationWork &work)
+{
+  const auto      &W        = system_.forces().directions();
+  constexpr double rounding = 8. * std::numeric_limits<double>::epsilon(); // of sums of a few terms
   double           open     = std::numeric_limits<double>::infinity();
-  for (int correction = 0; K.has_factor() && correction <= most_corrections; ++correction)
+  y_.resize(K.size());
+  for (int correction = 0; correction <= most_corrections; ++correction)
   {
     G.set_forces(local.lambda, local.p);
     load_ = f_;
-    load_.noalias() += W * local.p;
+    add_forces(W, 1., local.p, load_);
     mass_->solve(load_, product_);
-    local.a.noalias() = W.transpose() * product_;
-    g_                = bias_;
+    take_measures(W, product_, local.a);
+    g_ = bias_;
     G.add_product(1., local.a, g_);
+    if (correction == 0)
+      find_terms(G, local);
     const double before = open;
-    open                = largest_opening(g_, bias_, G, local, compliance_);
+    open                = (g_.array().abs() / terms_.array()).maxCoeff();
     if (open <= rounding || (open <= converged && open >= 0.5 * before)) // nothing left but rounding
-    {
-      shift_ = local.lambda - rate_;
       return true;
-    }
     y_.setZero();
     y_.segment(product_.size(), g_.size()) = -g_;
     K.solve_in_place(y_);
     ++work.solves;
     local.lambda += y_.segment(product_.size(), g_.size());
   }
-  local.lambda  = rate_;
-  step_is_near_ = false;
   return false;
 }
 

@@ -1,5 +1,7 @@
 #include "coupling/integration/step/implicit_step.h"
 
+#include "coupling/integration/step/directions.h"
+
 #include <cmath>
 #include <utility>
 
@@ -23,7 +25,7 @@ bool ImplicitStep::factorise_sparse(IntegrationWork &work)
 /// W^T x; for sticking measures the value from their rates.
 void ImplicitStep::find_measures(const Eigen::VectorXd &x, const StepForm &form, const LocalState &base)
 {
-  xi_.noalias() = system_.forces().directions().transpose() * x;
+  take_measures(system_.forces().directions(), x, xi_);
   for (const HeldMeasure &h : system_.forces().held())
     xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
 }
@@ -35,15 +37,14 @@ bool ImplicitStep::correct_sparse(const StepForm &form, const Eigen::VectorXd &f
   const auto &W    = system_.forces().directions();
   const auto &held = system_.forces().held();
   const auto  n = x.size(), n_c = Eigen::Index(G_.n_rows());
-  residual_.noalias() = form.force * local.p;
-  y_.head(n)          = f;
-  y_.head(n).noalias() += W * residual_;
+  y_.head(n) = f;
+  add_forces(W, form.force, local.p, y_);
   y_.head(n).noalias() -= saddle_->A() * x;
   y_.segment(n, n_c) = g_ / -form.w_u;
   for (std::size_t h = 0; h < held.size(); ++h)
     y_[n + n_c + Eigen::Index(h)] = xi_[held[h].measure] - W.col(held[h].measure).dot(x);
   saddle_->solve_in_place(y_);
-  correction_.noalias() = W.transpose() * y_.head(n);
+  take_measures(W, y_, correction_);
   if (!y_.allFinite())
     return false;
   residual_ = correction_; // of the measures, for messages
@@ -90,15 +91,19 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
       first_correction_ = correction_;
     x += damping * y_.head(n);
     local.lambda += (damping / form.force) * y_.segment(n, n_c);
-    find_measures(x, form, base);
+    xi_ += damping * correction_;
     if (std::exchange(went_on, false)) // two corrections lie between
       size_before = std::sqrt(size_before * size);
-    const double left = remaining(iteration, size, size_before);
-    if (damping == 1. && is_converged(iteration, size, left))
+    const double left          = remaining(iteration, size, size_before);
+    const bool   only_rounding = iteration > 0 && size <= most_left_ && size >= 0.5 * size_before;
+    if (damping == 1. && (only_rounding || is_converged(iteration, size, left)))
     {
-      finish(form, base, local);
       if (size <= turned_little)
+      {
+        finish(form, base, local);
         return true;
+      }
+      motion(form, base, local);
       if (!follow_turn_sparse(form, f, base, x, local))
         return false;
       if (ends_at_turn(iteration, size, left))

@@ -46,7 +46,7 @@ bool ImplicitStep::follow_turn_sparse(const StepForm &form, const Eigen::VectorX
   const auto n = x.size(), n_c = Eigen::Index(G_.n_rows());
   x += y_.head(n);
   local.lambda += y_.segment(n, n_c) / form.force;
-  find_measures(x, form, base);
+  xi_ += correction_;
   finish(form, base, local);
   return true;
 }

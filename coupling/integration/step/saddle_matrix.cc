@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -25,29 +26,33 @@ void for_column(const Sparse &W, int column, const Use &use)
 
 } // namespace
 
-/// KLU's objects with their lifetime.
-struct SaddleMatrix::Factor
+/// KLU's objects with their lifetime: a factor that shows the pivots.
+struct SaddleMatrix::PivotSearch
 {
-  Factor()
+  PivotSearch(Sparse &K, std::vector<int> &order)
   {
     klu_defaults(&common);
     common.btf   = 0;  // one block: a mechanism of several parts needs no special case
-    common.scale = -1; // see scale()
+    common.scale = -1; // K is scaled
     // least ratio of a diagonal pivot to the largest entry of its column: less fill, at a loss of up to four digits
     constexpr double pivot_preference = 1e-4;
     common.tol                        = pivot_preference;
+    int *begin = K.outerIndexPtr(), *rows = K.innerIndexPtr();
+    symbolic = klu_analyze_given(int(K.cols()), begin, rows, order.data(), order.data(), &common);
+    if (!symbolic)
+      throw std::runtime_error("SaddleMatrix: KLU refuses the matrix");
+    numeric = klu_factor(begin, rows, K.valuePtr(), symbolic, &common);
   }
-  ~Factor() { clear(); }
-  Factor(const Factor &)            = delete;
-  Factor &operator=(const Factor &) = delete;
-
-  void clear()
+  ~PivotSearch()
   {
     if (numeric)
       klu_free_numeric(&numeric, &common);
-    if (symbolic)
-      klu_free_symbolic(&symbolic, &common);
+    klu_free_symbolic(&symbolic, &common);
   }
+  PivotSearch(const PivotSearch &)            = delete;
+  PivotSearch &operator=(const PivotSearch &) = delete;
+
+  bool found() const { return numeric && common.status == KLU_OK; }
 
   klu_common    common;
   klu_symbolic *symbolic = nullptr;
@@ -55,8 +60,7 @@ struct SaddleMatrix::Factor
 };
 
 SaddleMatrix::SaddleMatrix(const SecondOrderSystem &system)
-    : system_(system), n_(system.linear().size()), n_c_(system.joints().n_rows()), weights_(Eigen::VectorXd::Zero(4)),
-      factor_(std::make_unique<Factor>())
+    : system_(system), n_(system.linear().size()), n_c_(system.joints().n_rows()), weights_(Eigen::VectorXd::Zero(4))
 {
   collect_base(system);
   analyse();
@@ -127,26 +131,24 @@ int SaddleMatrix::position(int row, int column) const
 /// Finds the position in K of every entry of A, p' and G.
 void SaddleMatrix::analyse()
 {
-  const std::vector<Place> base = places_of_base(), tangent = places_of_tangent(), held = places_of_held();
-  std::vector<Place>       action, motion;
-  places_of_joints(action, motion);
-
-  const int N = n_ + n_c_ + int(held_.size());
+  const std::vector<Place> base = places_of_base(), tangent = places_of_tangent(), joints = places_of_joints(),
+                           held = places_of_held();
+  const int N                   = n_ + n_c_ + int(held_.size());
   Triplets  all;
-  for (const std::vector<Place> *places : {&base, &tangent, &std::as_const(action), &std::as_const(motion), &held})
+  for (const std::vector<Place> *places : {&base, &tangent, &joints, &held})
     for (const Place &place : *places)
       all.emplace_back(place.row, place.column, 0.);
   pattern_.resize(N, N);
   pattern_.setFromTriplets(all.begin(), all.end());
   pattern_.makeCompressed();
-  of_A_.clear();
+  parts_ = {{}, scattered(tangent), scattered(joints), scattered(held)};
   for (const Place &place : base)
-    of_A_.push_back(position(place.row, place.column));
-  of_tangent_ = scattered(tangent);
-  of_action_  = scattered(action);
-  of_motion_  = scattered(motion);
-  of_held_    = scattered(held);
-  scale_.setOnes(N);
+    parts_.A.push_back(position(place.row, place.column));
+  diagonal_.clear();
+  for (int j = 0; j < n_; ++j)
+    diagonal_.push_back(position(j, j));
+  square_.setOnes(N);
+  least_.setZero(N);
   order();
 }
 
@@ -182,23 +184,28 @@ std::vector<SaddleMatrix::Place> SaddleMatrix::places_of_tangent() const
   return places;
 }
 
-/// action: -W G^T, motion: G W^T.
-void SaddleMatrix::places_of_joints(std::vector<Place> &action, std::vector<Place> &motion) const
+/// -W G^T and G W^T.
+std::vector<SaddleMatrix::Place> SaddleMatrix::places_of_joints() const
 {
-  int first = 0;
-  for (const ConstraintBlock &block : system_.joints().blocks())
+  std::vector<Place> places;
+  int                first  = 0;
+  const auto        &blocks = system_.joints().blocks();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
   {
+    const ConstraintBlock &block = blocks[b];
     for (int k = 0; k < block.n_measures; ++k)
       for (int r = 0; r < block.n_rows; ++r)
-        for_column(system_.forces().directions(), block.first_measure + k,
-                   [&](int i, double w)
-                   {
-                     const int value = first + r + block.n_rows * k, row = n_ + block.first_row + r;
-                     action.push_back({value, i, row, -w});
-                     motion.push_back({value, row, i, w});
-                   });
+        if (system_.joints().depends(b, r, k))
+          for_column(system_.forces().directions(), block.first_measure + k,
+                     [&](int i, double w)
+                     {
+                       const int value = first + r + block.n_rows * k, row = n_ + block.first_row + r;
+                       places.push_back({value, i, row, -w});
+                       places.push_back({value, row, i, w});
+                     });
     first += block.n_rows * block.n_measures;
   }
+  return places;
 }
 
 std::vector<SaddleMatrix::Place> SaddleMatrix::places_of_held() const
@@ -246,12 +253,7 @@ void SaddleMatrix::order()
   if (camd_order(N, begin, rows, order_.data(), nullptr, facts, sets.data()) < CAMD_OK)
     throw std::runtime_error("SaddleMatrix: no order of elimination was found");
   work_ = facts[CAMD_NMULTSUBS_LU];
-  factor_->clear();
-  factorised_       = false;
-  factor_->symbolic = klu_analyze_given(N, pattern_.outerIndexPtr(), pattern_.innerIndexPtr(), order_.data(),
-                                        order_.data(), &factor_->common);
-  if (!factor_->symbolic)
-    throw std::runtime_error("SaddleMatrix: KLU refuses the matrix");
+  forget_pivots();
 }
 
 void SaddleMatrix::hold(const std::vector<HeldMeasure> &held)
@@ -280,97 +282,118 @@ void SaddleMatrix::set_weights(double w_M, double w_B, double w_C, double f)
   factorised_ = false;
 }
 
-void SaddleMatrix::fill(const Eigen::VectorXd &tangent, const ConstraintJacobian &G)
+void SaddleMatrix::fill(const Parts &parts, const Eigen::VectorXd &tangent, const ConstraintJacobian &G,
+                        double *K) const
 {
-  double *K = pattern_.valuePtr();
-  std::fill_n(K, pattern_.nonZeros(), 0.);
-  for (std::size_t k = 0; k < of_A_.size(); ++k)
-    K[of_A_[k]] = A_.valuePtr()[k];
-  for (const Scattered &s : of_tangent_)
+  for (std::size_t k = 0; k < parts.A.size(); ++k)
+    K[parts.A[k]] = A_.valuePtr()[k];
+  for (const Scattered &s : parts.tangent)
     K[s.position] -= weights_[3] * s.weight * tangent[s.value];
-  for (const auto *part : {&of_action_, &of_motion_})
-    for (const Scattered &s : *part)
-      K[s.position] += s.weight * G.values()[s.value];
-  for (const Scattered &s : of_held_)
+  const double *values = G.values().data();
+  for (const Scattered &s : parts.joints)
+    K[s.position] += s.weight * values[s.value];
+  for (const Scattered &s : parts.held)
     K[s.position] += s.weight;
 }
 
-void SaddleMatrix::scale()
+/// K, and the squares of the factors that scale it.
+void SaddleMatrix::fill_pattern(const Eigen::VectorXd &tangent, const ConstraintJacobian &G)
 {
   double    *K     = pattern_.valuePtr();
   const int *begin = pattern_.outerIndexPtr(), *rows = pattern_.innerIndexPtr();
-  const auto unit = [](double square) { return square > 0. && std::isfinite(square) ? 1. / std::sqrt(square) : 1.; };
+  std::fill_n(K, pattern_.nonZeros(), 0.);
+  fill(parts_, tangent, G, K);
+  const auto unit = [](double square) { return square > 0. && std::isfinite(square) ? 1. / square : 1.; };
   for (int j = 0; j < n_; ++j)
-    for (int k = begin[j]; k < begin[j + 1]; ++k)
-      if (rows[k] == j)
-        scale_[j] = unit(std::abs(K[k]));
+    square_[j] = unit(std::abs(K[diagonal_[std::size_t(j)]]));
   for (int j = n_; j < size(); ++j) // column j is minus row j: they involve only motions
   {
     double length = 0.;
     for (int k = begin[j]; k < begin[j + 1]; ++k)
-      length += std::pow(K[k] * scale_[rows[k]], 2);
-    scale_[j] = unit(length);
+      length += K[k] * K[k] * square_[rows[k]];
+    square_[j] = unit(length);
   }
-  for (int j = 0; j < size(); ++j)
-    for (int k = begin[j]; k < begin[j + 1]; ++k)
-      K[k] *= scale_[rows[k]] * scale_[j];
 }
 
 void SaddleMatrix::forget_pivots()
 {
   factorised_ = false;
-  if (factor_->numeric)
-    klu_free_numeric(&factor_->numeric, &factor_->common);
+  elimination_.reset();
 }
 
-bool SaddleMatrix::is_regular()
+bool SaddleMatrix::find_pivots(const Eigen::VectorXd &tangent, const ConstraintJacobian &G)
 {
-  if (!factor_->numeric || factor_->common.status != KLU_OK)
+  fill_pattern(tangent, G);
+  double    *K     = pattern_.valuePtr();
+  const int *begin = pattern_.outerIndexPtr(), *rows = pattern_.innerIndexPtr();
+  for (int j = 0; j < size(); ++j)
+    for (int k = begin[j]; k < begin[j + 1]; ++k)
+      K[k] *= std::sqrt(square_[rows[k]] * square_[j]);
+  const PivotSearch search(pattern_, order_);
+  if (!search.found())
   {
-    failed_ = std::clamp(factor_->common.singular_col, 0, size() - 1);
+    failed_ = std::clamp(search.common.singular_col, 0, size() - 1);
     return false;
   }
-  const auto *pivots = static_cast<const double *>(factor_->numeric->Udiag);
+  elimination_ = std::make_unique<Elimination>(pattern_, search.numeric->Pnum, search.symbolic->Q);
+  placed_      = parts_;
+  for (int &position : placed_.A)
+    position = elimination_->place(position);
+  for (auto *part : {&placed_.tangent, &placed_.joints, &placed_.held})
+    for (Scattered &s : *part)
+      s.position = elimination_->place(s.position);
+  least_.setConstant(std::numeric_limits<double>::infinity());
+  return true;
+}
+
+/// False: a pivot of an equation of unit length is a rounding error.
+bool SaddleMatrix::is_regular(const Eigen::VectorXd &tangent, const ConstraintJacobian &G)
+{
+  fill_pattern(tangent, G);
   for (int k = 0; k < size(); ++k)
   {
-    failed_                    = factor_->symbolic->Q[k];
-    constexpr double dependent = 1e-14; // pivot of an equation of unit length: rounding, as in SmallLu
-    if (failed_ < n_ ? !std::isfinite(pivots[k]) : !(std::abs(pivots[k]) > dependent) || !std::isfinite(pivots[k]))
+    const double pivot         = std::abs(elimination_->pivot(k));
+    failed_                    = elimination_->column(k);
+    const double     scale     = std::sqrt(square_[elimination_->row(k)] * square_[failed_]);
+    constexpr double dependent = 1e-14; // as in SmallLu
+    if (!std::isfinite(pivot) || (failed_ >= n_ && !(pivot * scale > dependent)))
       return false;
+    constexpr double little_smaller = 1e-3; // far from rounding, whatever became of the length of the equation
+    least_[k]                       = failed_ < n_ ? 0. : little_smaller * pivot;
   }
   return true;
 }
 
+bool SaddleMatrix::eliminate(const Eigen::VectorXd &tangent, const ConstraintJacobian &G)
+{
+  std::vector<double> &entries = elimination_->entries();
+  std::fill(entries.begin(), entries.end(), 0.);
+  fill(placed_, tangent, G, entries.data());
+  elimination_->factorise();
+  bool   regular = true;
+  double sum     = 0.;
+  for (int k = 0; k < size(); ++k)
+  {
+    const double pivot = std::abs(elimination_->pivot(k));
+    sum += pivot;
+    regular = regular && pivot >= least_[k];
+  }
+  return (regular && std::isfinite(sum)) || is_regular(tangent, G);
+}
+
 bool SaddleMatrix::factorise(const Eigen::VectorXd &tangent, const ConstraintJacobian &G)
 {
-  fill(tangent, G);
-  scale();
-  Factor &f   = *factor_;
-  factorised_ = false;
-  if (f.numeric)
-  {
-    klu_refactor(pattern_.outerIndexPtr(), pattern_.innerIndexPtr(), pattern_.valuePtr(), f.symbolic, f.numeric,
-                 &f.common);
-    factorised_ = is_regular();
-  }
+  factorised_ = elimination_ && eliminate(tangent, G);
   if (!factorised_)
-  {
-    if (f.numeric)
-      klu_free_numeric(&f.numeric, &f.common);
-    f.numeric =
-        klu_factor(pattern_.outerIndexPtr(), pattern_.innerIndexPtr(), pattern_.valuePtr(), f.symbolic, &f.common);
-    factorised_ = is_regular();
-  }
-  if (!factorised_ && f.numeric) // of no use to the next
-    klu_free_numeric(&f.numeric, &f.common);
+    factorised_ = find_pivots(tangent, G) && eliminate(tangent, G);
+  if (!factorised_) // of no use to the next
+    elimination_.reset();
   return factorised_;
 }
 
 void SaddleMatrix::solve_in_place(Eigen::VectorXd &y) const
 {
-  y.array() *= scale_.array();
-  klu_solve(factor_->symbolic, factor_->numeric, size(), 1, y.data(), &factor_->common);
-  y.array() *= scale_.array();
+  elimination_->solve_in_place(y);
 }
 
 } // namespace gestell::coupling

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/step/elimination.h"
 #include "coupling/integration/system/second_order_system.h"
 
 #include <Eigen/SparseCore>
@@ -29,16 +30,15 @@ enum class JointSolver
  * the sticking measures [n_h]; W_h are their columns of W.  With f of the order of h^2, multipliers have the unit mass
  * times length, and K does not scale with the step.
  *
- * Before factorisation K is scaled to unit diagonal of its motions, and every equation of a joint to unit length in
+ * Pivots are searched with K scaled to unit diagonal of its motions and every equation of a joint to unit length in
  * them: a pivot alone then shows whether it is a rounding error.
  *
  * Motions are eliminated before the joints that act on them.  The Schur complement G W^T (A - ...)^-1 W G^T for the
  * joints is positive definite as long as inertia and stiffness dominate, so that no pivoting is needed, and one order
  * with little fill-in (CAMD) remains suitable while G changes.  A coordinate on which very many joints act (a frame)
- * would couple all of them, and is eliminated after them.  KLU (Davis & Palamadai Natarajan, ACM TOMS 37(3), 2010):
- * made for matrices of a few numbers per row, without dense kernels and their overhead; klu_refactor() allocates
- * nothing; an unsymmetric p', as for friction, needs no special case.  A factor with other pivots is computed (and
- * memory allocated) only if the present ones or a step failed.
+ * would couple all of them, and is eliminated after them.  KLU (Davis & Palamadai Natarajan, ACM TOMS 37(3), 2010)
+ * finds the pivots, Elimination repeats their elimination in every step; an unsymmetric p', as for friction, needs no
+ * special case.  Pivots are searched (and memory is allocated) only at first and if the present ones or a step failed.
  */
 class SaddleMatrix
 {
@@ -76,7 +76,7 @@ public:
   double work() const { return work_; }
 
 private:
-  struct Factor;
+  struct PivotSearch;
   struct Scattered
   {
     int    value, position; ///< K[position] += factor weight value
@@ -90,34 +90,44 @@ private:
     double weight;
   };
 
+  /// Numbers of which K is the sum.
+  struct Parts
+  {
+    std::vector<int>       A;                     ///< positions of A's entries
+    std::vector<Scattered> tangent, joints, held; ///< -f W p' W^T; -W G^T and G W^T; -W_h and W_h^T
+  };
+
   void                   collect_base(const SecondOrderSystem &system);
   void                   analyse();
   std::vector<Place>     places_of_base() const;
   std::vector<Place>     places_of_tangent() const;
-  void                   places_of_joints(std::vector<Place> &action, std::vector<Place> &motion) const;
+  std::vector<Place>     places_of_joints() const;
   std::vector<Place>     places_of_held() const;
   std::vector<Scattered> scattered(const std::vector<Place> &places) const;
   void                   order();
   int                    position(int row, int column) const;
-  void                   fill(const Eigen::VectorXd &tangent, const ConstraintJacobian &G);
-  void                   scale();
-  bool                   is_regular();
+  void fill(const Parts &parts, const Eigen::VectorXd &tangent, const ConstraintJacobian &G, double *K) const;
+  void fill_pattern(const Eigen::VectorXd &tangent, const ConstraintJacobian &G);
+  bool find_pivots(const Eigen::VectorXd &tangent, const ConstraintJacobian &G);
+  bool eliminate(const Eigen::VectorXd &tangent, const ConstraintJacobian &G);
+  bool is_regular(const Eigen::VectorXd &tangent, const ConstraintJacobian &G);
 
-  const SecondOrderSystem    &system_;
-  int                         n_, n_c_;
-  std::vector<int>            held_; ///< measures
-  Eigen::SparseMatrix<double> A_, pattern_;
-  Eigen::VectorXd             M_, B_, C_;                          ///< entries on the pattern of A
-  Eigen::VectorXd             weights_;                            ///< w_M, w_B, w_C, f
-  std::vector<int>            of_A_;                               ///< positions of A's entries in K
-  std::vector<Scattered>      of_tangent_, of_action_, of_motion_; ///< W p' W^T, W G^T, G W^T
-  std::vector<Scattered>      of_held_;
-  Eigen::VectorXd             scale_; ///< of rows and columns alike
-  std::vector<int>            order_;
-  std::unique_ptr<Factor>     factor_;
-  bool                        factorised_ = false;
-  int                         failed_     = 0;
-  double                      work_       = 0.;
+  const SecondOrderSystem     &system_;
+  int                          n_, n_c_;
+  std::vector<int>             held_; ///< measures
+  Eigen::SparseMatrix<double>  A_, pattern_;
+  Eigen::VectorXd              M_, B_, C_; ///< entries on the pattern of A
+  Eigen::VectorXd              weights_;   ///< w_M, w_B, w_C, f
+  Parts                        parts_;     ///< with positions in K
+  Parts                        placed_;    ///< with positions in elimination_
+  std::vector<int>             diagonal_;  ///< positions of the motions' diagonal in K
+  Eigen::VectorXd              square_;    ///< of the factors that scale rows and columns alike
+  std::vector<int>             order_;
+  std::unique_ptr<Elimination> elimination_; ///< null: its pivots are not known
+  Eigen::VectorXd              least_;       ///< magnitudes of pivots above which they are regular without a check
+  bool                         factorised_ = false;
+  int                          failed_     = 0;
+  double                       work_       = 0.;
 };
 
 } // namespace gestell::coupling

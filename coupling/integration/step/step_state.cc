@@ -44,7 +44,7 @@ void ImplicitStep::exchange(StateArchive &archive)
 
 void ConsistentStart::exchange(StateArchive &archive)
 {
-  archive(linear_, tangent_, a_, shift_, step_is_near_);
+  archive(linear_, tangent_, a_, step_is_near_);
   holding_.clear();
   if (!matrix_)
     return;

@@ -28,6 +28,8 @@ public:
   virtual bool wants_multipliers() const { return false; }
   /// Joint and direction of row i, for messages: "crank pin, along x".
   virtual std::string name(int i) const;
+  /// Of block b: whether its equation r depends on its measure k; false: that entry of G is always zero.
+  virtual bool depends(std::size_t b, int r, int k) const { return (void)b, (void)r, (void)k, true; }
 };
 
 } // namespace gestell::coupling
