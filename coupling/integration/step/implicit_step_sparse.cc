@@ -94,8 +94,9 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
     xi_ += damping * correction_;
     if (std::exchange(went_on, false)) // two corrections lie between
       size_before = std::sqrt(size_before * size);
-    const double left          = remaining(iteration, size, size_before);
-    const bool   only_rounding = iteration > 0 && size <= most_left_ && size >= 0.5 * size_before;
+    const double left = remaining(iteration, size, size_before);
+    // Friction by multipliers converges linearly, as slowly as rounding seems to.
+    const bool only_rounding = turn_counts_ && iteration > 0 && size <= most_left_ && size >= 0.5 * size_before;
     if (damping == 1. && (only_rounding || is_converged(iteration, size, left)))
     {
       if (size <= turned_little)
