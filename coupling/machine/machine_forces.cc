@@ -57,17 +57,24 @@ void MachineForces::derivatives(const LocalState &state, Eigen::VectorXd &p, Eig
   }
 }
 
-void MachineForces::add_turning(const LocalState &state, Eigen::MatrixXd &dp_du) const
+namespace
+{
+/// The rotation of an element's force takes its geometric stiffness from dp/du.
+void add_turning_of(const MachineParts &parts, const MachineParts::PlacedElement &part, const LocalState &state,
+                    Eigen::MatrixXd &dp_du)
 {
   double K[MachineParts::max_measures * MachineParts::max_measures];
+  mechanism::geometric(*part.element, part.motion(state, parts.by_history), parts.history_of(part), K);
+  dp_du.block(part.first_measure, part.first_measure, part.n_measures, part.n_measures) -=
+      Eigen::Map<const Eigen::MatrixXd>(K, part.n_measures, part.n_measures);
+}
+} // namespace
+
+void MachineForces::add_turning(const LocalState &state, Eigen::MatrixXd &dp_du) const
+{
   for (const auto &part : parts_.placed)
-  {
-    if (part.implied() || !part.element->structure())
-      continue;
-    mechanism::geometric(*part.element, part.motion(state, parts_.by_history), parts_.history_of(part), K);
-    dp_du.block(part.first_measure, part.first_measure, part.n_measures, part.n_measures) -=
-        Eigen::Map<const Eigen::MatrixXd>(K, part.n_measures, part.n_measures);
-  }
+    if (!part.implied() && part.element->structure())
+      add_turning_of(parts_, part, state, dp_du);
 }
 
 std::vector<ForceBlock> MachineForces::blocks() const
@@ -174,6 +181,12 @@ const std::vector<ConstraintBlock> &MachineJoints::blocks() const
 bool MachineJoints::depends(std::size_t b, int r, int k) const
 {
   return parts_.placed[parts_.joints[b]].joint->depends(r, k);
+}
+
+void MachineJoints::add_turning(const LocalState &state, Eigen::MatrixXd &dp_du) const
+{
+  for (const int joint : parts_.joints)
+    add_turning_of(parts_, parts_.placed[joint], state, dp_du);
 }
 
 /// Bodies have several joints: their cosines and sines are computed once, except where a derivative moves one measure.

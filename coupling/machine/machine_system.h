@@ -57,7 +57,7 @@ private:
   const MachineParts &parts_;
 };
 
-class MachineJoints final : public IdealJoints
+class MachineJoints final : public IdealJoints, public TurningForces
 {
 public:
   explicit MachineJoints(const MachineParts &parts) : parts_(parts) {}
@@ -66,6 +66,7 @@ public:
   void        constraints(const LocalState &state, Eigen::VectorXd &g, ConstraintJacobian &G) const override;
   void        rates(const LocalState &state, Eigen::VectorXd &rate, Eigen::VectorXd &bias) const override;
   bool        depends(std::size_t b, int r, int k) const override;
+  void        add_turning(const LocalState &state, Eigen::MatrixXd &dp_du) const override;
   bool        wants_multipliers() const override;
   std::string name(int i) const override;
 

@@ -5,8 +5,9 @@
 namespace gestell::coupling
 {
 
-/// Interface of forces that act along directions which rotate with the motion: LocalForces::derivatives() keeps these
-/// directions constant, in the forces and in the rates they depend on, which suffices for a step of Newton's method.
+/// Interface of LocalForces and IdealJoints whose forces act along directions that rotate with the motion:
+/// LocalForces::derivatives() keeps these directions constant, in the forces and in the rates they depend on, which
+/// suffices for a step of Newton's method.
 class TurningForces
 {
 public:
