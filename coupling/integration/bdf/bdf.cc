@@ -274,6 +274,8 @@ void Bdf::multistep(double t)
     {
       predict(&Point::q, &Point::v, to.q);
       predict(&Point::lambda, nullptr, lambda_);
+      if (system_.forces().need_multipliers()) // friction lags one iteration, and there may be only one
+        local_.lambda = lambda_;
     }
     else
       predict(&Point::u, &Point::u_rate, local_.u);

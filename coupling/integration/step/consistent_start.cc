@@ -148,11 +148,7 @@ void ConsistentStart::find_multipliers(const Eigen::VectorXd &q, const Eigen::Ve
 {
   const auto known = [&]
   {
-    if (!linear_ || !system_.forces().held().empty() || system_.forces().need_multipliers())
-      return false;
-    system_.forces().tangent_blocks(local, 0., 0., 1., local.p, tangent_);
-    ++work.evaluations;
-    if (!tangent_.isZero(0.) || !local.p.allFinite())
+    if (!linear_ || !system_.forces().held().empty() || system_.forces().need_multipliers() || !local.p.allFinite())
       return false;
     system_.joints().rates(local, rate_, bias_);
     if (!saddle_)
@@ -297,8 +293,7 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
     ++work.newton;
     ++work.evaluations;
     // If no force depends on u'' or multipliers, one step is sufficient.
-    const bool linear = tangent_.isZero(0.) && !system_.forces().need_multipliers();
-    linear_           = linear_ && linear;
+    const bool linear = linear_ = tangent_.isZero(0.) && !system_.forces().need_multipliers();
     if (joints)
     {
       G_.set_forces(local.lambda, local.p);

@@ -49,14 +49,14 @@ public:
   void solve(const Eigen::VectorXd &q, const Eigen::VectorXd &v, Eigen::VectorXd &a, LocalState &local,
              IntegrationWork &work);
 
-  /// Writes the multipliers, forces and u'' where a step ends into local, as solve() computes them.  Almost
-  /// everything is known there: G from the step, lambda about.  Condensed, u'' follows from tables.
-  /// Sparse, the step's own factor corrects lambda until
+  /// Writes the multipliers, forces and u'' where a step ends into local, as solve() computes them; the last solve()
+  /// was in the same branches of all forces.  Almost everything is known there: p and G from the step, lambda about.
+  /// Condensed, u'' follows from tables. Sparse, the step's own factor corrects lambda until
   ///
   ///     g'' = G u'' + bias,     M a = f_t + W p - B q' - C q
   ///
-  /// is zero up to rounding; two corrections are usual, because A differs from M by terms of the
-  /// order of h.  If these are large, the factor is that of M with the same G.  If something sticks, or if a force
+  /// is zero to 1e-12 of its terms; one correction is usual, because A differs from M by terms of the order of h.  If
+  /// these are large, the factor is that of M with the same G.  If something sticks, or if a force
   /// depends on u'' or on multipliers, solve() is called.
   void find_multipliers(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const ImplicitStep &step, LocalState &local,
                         IntegrationWork &work);
@@ -112,23 +112,24 @@ private:
   Compliance                               D_;
   Eigen::VectorXd                          f_, product_, a_free_, correction_, scale_;
   ConstraintJacobian                       G_;
-  Eigen::VectorXd                          g_, rate_, bias_;     // [n_c]
-  Eigen::VectorXd                          tangent_;             ///< dp/du'' by blocks
-  std::unique_ptr<CondensedMatrix>         matrix_;              ///< null: sparse
-  std::unique_ptr<SaddleMatrix>            saddle_;              ///< null: condensed
-  Eigen::VectorXd                          y_, load_;            ///< [n + n_c + n_h], [n]
-  bool                                     linear_ = true;       ///< no force has depended on u'' or multipliers so far
-  Eigen::MatrixXd                          Y_B_, Y_C_;           ///< Y^T B, Y^T C [n_N x n]; empty until needed
-  Eigen::VectorXd                          a_load_, moved_;      ///< [n_N] Y^T f_t, Y^T (f_t - B q' - C q)
-  bool                                     load_known_ = false;  ///< a_load_ is, of a constant load
-  Eigen::VectorXd                          terms_;               ///< [n_c] of g'' in close_sparse()
-  Eigen::VectorXd                          compliance_;          ///< [n_u] diagonal of D; empty: condensed
-  bool                                     step_is_near_ = true; ///< the step's factor has corrected multipliers so far
-  std::vector<int>                         holding_; ///< measures for which hold_f_ to delassus_ are computed
-  Eigen::MatrixXd                          hold_f_, hold_v_, hold_q_; ///< M^-1 W_h, B M^-1 W_h, C M^-1 W_h [n x n_h]
-  Eigen::MatrixXd                          hold_D_;                   ///< rows D_h [n_h x n_u]
-  Eigen::VectorXd                          held_p_, a_;               ///< [n_h], [n]
-  SmallLu                                  delassus_;                 ///< D_hh
+  Eigen::VectorXd                          g_, rate_, bias_; // [n_c]
+  Eigen::VectorXd                          tangent_;         ///< dp/du'' by blocks
+  std::unique_ptr<CondensedMatrix>         matrix_;          ///< null: sparse
+  std::unique_ptr<SaddleMatrix>            saddle_;          ///< null: condensed
+  Eigen::VectorXd                          y_, load_;        ///< [n + n_c + n_h], [n]
+  bool                                     linear_ =
+      true; ///< no force depends on u'' or multipliers, in the branches of the last solve(): tangent_ is zero
+  Eigen::MatrixXd  Y_B_, Y_C_;                ///< Y^T B, Y^T C [n_N x n]; empty until needed
+  Eigen::VectorXd  a_load_, moved_;           ///< [n_N] Y^T f_t, Y^T (f_t - B q' - C q)
+  bool             load_known_ = false;       ///< a_load_ is, of a constant load
+  Eigen::VectorXd  terms_;                    ///< [n_c] of g'' in close_sparse()
+  Eigen::VectorXd  compliance_;               ///< [n_u] diagonal of D; empty: condensed
+  bool             step_is_near_ = true;      ///< the step's factor has corrected multipliers so far
+  std::vector<int> holding_;                  ///< measures for which hold_f_ to delassus_ are computed
+  Eigen::MatrixXd  hold_f_, hold_v_, hold_q_; ///< M^-1 W_h, B M^-1 W_h, C M^-1 W_h [n x n_h]
+  Eigen::MatrixXd  hold_D_;                   ///< rows D_h [n_h x n_u]
+  Eigen::VectorXd  held_p_, a_;               ///< [n_h], [n]
+  SmallLu          delassus_;                 ///< D_hh
 };
 
 } // namespace gestell::coupling

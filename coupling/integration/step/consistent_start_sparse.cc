@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace gestell::coupling
 {
@@ -78,7 +77,7 @@ void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, Inte
     ++work.newton;
     ++work.evaluations;
     // If no force depends on u'' or multipliers, one step is sufficient.
-    const bool linear = tangent_.isZero(0.) && !system_.forces().need_multipliers();
+    const bool linear = linear_ = tangent_.isZero(0.) && !system_.forces().need_multipliers();
     factorise_sparse(local.t);
     ++work.factorisations;
     y_.head(n) = load_;
@@ -153,13 +152,11 @@ void ConsistentStart::find_terms(const ConstraintJacobian &G, const LocalState &
         terms_[block.first_row + i] += std::abs(*entries++) * correction_[block.first_measure + k];
 }
 
-/// Corrects lambda by the factor of K until g'' is zero up to rounding in every equation.
+/// Corrects lambda by the factor of K until g'' is zero to `converged` in every equation.
 bool ConsistentStart::close_sparse(const SaddleMatrix &K, const ConstraintJacobian &G, LocalState &local,
                                    IntegrationWork &work)
 {
-  const auto      &W        = system_.forces().directions();
-  constexpr double rounding = 8. * std::numeric_limits<double>::epsilon(); // of sums of a few terms
-  double           open     = std::numeric_limits<double>::infinity();
+  const auto &W = system_.forces().directions();
   y_.resize(K.size());
   for (int correction = 0; correction <= most_corrections; ++correction)
   {
@@ -172,9 +169,7 @@ bool ConsistentStart::close_sparse(const SaddleMatrix &K, const ConstraintJacobi
     G.add_product(1., local.a, g_);
     if (correction == 0)
       find_terms(G, local);
-    const double before = open;
-    open                = (g_.array().abs() / terms_.array()).maxCoeff();
-    if (open <= rounding || (open <= converged && open >= 0.5 * before)) // nothing left but rounding
+    if ((g_.array().abs() <= converged * terms_.array()).all())
       return true;
     y_.setZero();
     y_.segment(product_.size(), g_.size()) = -g_;
