@@ -59,13 +59,13 @@ public:
   {
     if (!equations_ || lambda != lambda_)
     {
-      const PassageDifferences differences = equations_ ? equations_->flow().differences() : PassageDifferences();
+      const PassageDerivative derivative = equations_ ? equations_->flow().derivative() : PassageDerivative();
       equations_.reset();
       member_ = member_at(family_, lambda, ratio_);
       if (member_.problem.period_is_unknown())
         member_.problem.period = z[z.size() - 1];
       equations_ = std::make_unique<ShootingEquations>(member_.problem, options_.integration, omega_);
-      equations_->flow().begin_with(differences);
+      equations_->flow().begin_with(derivative);
       lambda_ = lambda;
     }
     equations_->evaluate(z, jacobian);
@@ -77,7 +77,8 @@ public:
   PeriodicSolution solution() override { return equations_->solution("shooting"); }
   double           parameter_difference() const override
   {
-    return equations_->flow().has_tangents() ? BranchEquations::parameter_difference() : PassageDifferences::step;
+    constexpr double by_fixed_steps = 1e-4; // their ends move from grid to grid, which leaves 1e-8 of a motion
+    return equations_->flow().has_tangents() ? BranchEquations::parameter_difference() : by_fixed_steps;
   }
 
 private:

@@ -1,7 +1,7 @@
 #include "coupling/periodic/period_flow.h"
 
 #include "coupling/integration/integration_methods.h"
-#include "coupling/integration/step/consistent_start.h"
+#include "coupling/integration/step/varied_motion.h"
 #include "coupling/integration/system/dense_solvers.h"
 
 #include <algorithm>
@@ -55,6 +55,7 @@ PeriodFlow::PeriodFlow(const PeriodicProblem &problem, const MethodOptions &inte
       motion_(system_, make_integrator(system_, integration_)), integrator_(motion_.integrator()),
       tangents_(dynamic_cast<MotionTangents *>(&integrator_))
 {
+  own_tangents_ = tangents_ != nullptr;
   motion_.watch(*this);
   local_look_.resize(system_);
   q_look_.setZero(system_.linear().size());
@@ -95,12 +96,14 @@ void PeriodFlow::carry_all()
 void PeriodFlow::start(const VectorXd &q, const VectorXd &v, double begin, double end, bool tangents)
 {
   if (tangents && !tangents_)
-    throw std::invalid_argument(method_name(integration_) + " has no tangents; use exact, collocation");
+  {
+    varied_   = std::make_unique<VariedMotion>(system_, integrator_);
+    tangents_ = varied_.get();
+  }
   passage_         = {};
   passage_.q_begin = q;
   passage_.v_begin = v;
   passage_.fastest = v.norm();
-  speeds_          = v.cwiseAbs();
   carries_         = tangents;
   begin_           = begin;
   end_             = end;
@@ -120,65 +123,65 @@ void PeriodFlow::start(const VectorXd &q, const VectorXd &v, double begin, doubl
 
 const PeriodPassage &PeriodFlow::pass(const VectorXd &q, const VectorXd &v, double period, bool tangents)
 {
-  if (tangents && !tangents_)
-    return pass_with_differences(q, v, period);
+  if (tangents && !own_tangents_ && dq_begin_.size() == 0)
+    return pass_condensed(q, v, period);
   pass_part(q, v, problem_.begin, problem_.begin + period, tangents);
   passage_.period = period;
   put_back(q);
   return passage_;
 }
 
-const PeriodPassage &PeriodFlow::pass_with_differences(const VectorXd &q, const VectorXd &v, double period)
+namespace
 {
-  const Index  n     = q.size();
-  const double omega = 2. * M_PI / problem_.period;
-  const auto   looks = std::exchange(looks_, {});
+/// Roots of the energies of unit motions q, q' [2n], by the diagonals of M and C: in their norm a frame that vibrates
+/// freely does not grow.
+VectorXd energy_roots(const LinearSystem &linear, double omega)
+{
+  const Index n = linear.size();
+  VectorXd    squares(2 * n), unit = VectorXd::Zero(n), column(n);
+  for (Index i = 0; i < n; ++i)
+  {
+    unit[i] = 1.;
+    linear.mass_times(unit, column);
+    squares[n + i] = std::abs(column[i]);
+    linear.stiffness_times(unit, column);
+    squares[i] = std::abs(column[i]) + omega * omega * squares[n + i];
+    unit[i]    = 0.;
+  }
+  return (squares.array() > 0.).select(squares, 1.).cwiseSqrt(); // without mass and stiffness: as it is
+}
+} // namespace
+
+const PeriodPassage &PeriodFlow::pass_condensed(const VectorXd &q, const VectorXd &v, double period)
+{
+  const Index n     = q.size();
+  const auto  looks = std::exchange(looks_, {});
+  if (weights_.size() == 0)
+    weights_ = energy_roots(system_.linear(), 2. * M_PI / problem_.period);
   PeriodicWork work;
-  const auto   z_of = [&](const VectorXd &x, const VectorXd &rate)
+  const auto   passed = [&](bool tangents)
   {
-    VectorXd z(2 * n);
-    z << omega * x, rate;
-    return z;
-  };
-  const auto passage = [&](const VectorXd &z) -> PassageDifferences::End
-  {
-    pass(z.head(n) / omega, z.tail(n), period, false);
+    pass(q, v, period, tangents);
     work.add({0, 1, passage_.work});
-    std::string events;
-    for (const Event &event : passage_.events)
-      events += event.name + ", " + event.kind + "; ";
-    return {z_of(passage_.q - problem_.turn, passage_.v), events};
   };
-  const auto nearest = [&](const VectorXd &z) -> VectorXd
-  {
-    if (system_.joints().n_rows() == 0)
-      return z;
-    if (!start_)
-      start_ = std::make_unique<ConsistentStart>(system_, "the derivative of a period");
-    VectorXd x = z.head(n) / omega, rate = z.tail(n);
-    local_look_.t = problem_.begin;
-    local_look_.u = system_.forces().directions().transpose() * x;
-    local_look_.v = system_.forces().directions().transpose() * rate;
-    start_->project(x, rate, local_look_);
-    return z_of(x, rate);
-  };
-  const VectorXd z     = z_of(q, v);
-  const auto     end   = passage(z);
-  const VectorXd sizes = z_of(speeds_ / omega, speeds_);
-  MatrixXd       monodromy =
-      dq_begin_.size() == 0
-                ? differences_.monodromy(z, end, sizes, passage, nearest)
-                : differences_.images(z, end, sizes, passage, nearest,
-                                      (MatrixXd(2 * n, dq_begin_.cols()) << omega * dq_begin_, dv_begin_).finished());
-  monodromy.topRows(n) /= omega;
-  if (dq_begin_.size() == 0)
-    monodromy.leftCols(n) *= omega;
+  MatrixXd monodromy = derivative_.monodromy(2 * n,
+                                             [&](MatrixXd X) -> MatrixXd
+                                             {
+                                               X.array().colwise() /= weights_.array();
+                                               carry(X.topRows(n), X.bottomRows(n));
+                                               passed(true);
+                                               return weights_.asDiagonal() * passage_.monodromy;
+                                             });
+  carry({}, {});
+  monodromy.array().colwise() /= weights_.array();
+  monodromy.array().rowwise() *= weights_.transpose().array();
   looks_ = looks;
-  pass(q, v, period, false); // the integrator is at its end again
+  if (!looks_.empty())
+    passed(false);
   passage_.monodromy = std::move(monodromy);
-  work.add({0, 1, passage_.work});
-  passage_.work = work.integration;
-  passage_.runs = work.periods;
+  passage_.work      = work.integration;
+  passage_.runs      = work.periods;
+  passage_.condensed = derivative_.is_condensed();
   return passage_;
 }
 
@@ -335,8 +338,6 @@ void PeriodFlow::step()
   largest_[2]      = largest_[2].cwiseMax(local.a.cwiseAbs());
   largest_[3]      = largest_[3].cwiseMax(local.p.cwiseAbs());
   passage_.fastest = std::max(passage_.fastest, integrator_.instant().v.norm());
-  if (!tangents_)
-    speeds_ = speeds_.cwiseMax(integrator_.instant().v.cwiseAbs());
   if (!looks_.empty())
     show(integrator_.time());
   if (at_turn_)

@@ -2,7 +2,7 @@
 
 #include "coupling/integration/events/motion.h"
 #include "coupling/integration/system/motion_tangents.h"
-#include "coupling/periodic/passage_differences.h"
+#include "coupling/periodic/passage_derivative.h"
 #include "coupling/periodic/periodic_solution.h"
 
 #include <functional>
@@ -11,7 +11,7 @@
 namespace gestell::coupling
 {
 
-class ConsistentStart;
+class VariedMotion;
 
 /// End state of one period.
 struct PeriodPassage
@@ -27,7 +27,8 @@ struct PeriodPassage
   std::vector<std::string> grazing;         ///< events whose guard touches zero without crossing
   double                   chattering = 0.; ///< share of the period with too many events to locate
   IntegrationWork          work;
-  long                     runs = 1; ///< passages; more: with those whose differences are the monodromy matrix
+  long                     runs      = 1;     ///< passages; more: with those for the monodromy matrix
+  bool                     condensed = false; ///< the monodromy matrix is that of large motions, PassageDerivative
 };
 
 /**
@@ -41,7 +42,8 @@ struct PeriodPassage
  * the saltation matrix (Aizerman, Gantmakher 1958; Mueller 1995).  Transitions that follow at the same instant share
  * dt*.  If g' is negligible, the event is grazing: dt* is omitted, and this is reported.
  *
- * Of integrators without tangents the derivative of whole periods is taken by differences (PassageDifferences).
+ * Beside integrators without tangents VariedMotion has them; the derivative of whole periods is then condensed to large
+ * motions (PassageDerivative).
  */
 class PeriodFlow : private RunObserver
 {
@@ -50,16 +52,17 @@ public:
   PeriodFlow(const PeriodicProblem &problem, const MethodOptions &integration);
   ~PeriodFlow() override;
 
-  bool has_tangents() const { return tangents_ != nullptr; }
-  /// Of integrators without tangents: what differences of the last period were taken for, to begin with in a flow of a
-  /// neighbouring problem.
-  const PassageDifferences &differences() const { return differences_; }
-  void                      begin_with(const PassageDifferences &differences) { differences_ = differences; }
+  /// Whether tangents are the integrator's own, and cheap.
+  bool has_tangents() const { return own_tangents_; }
+  /// Of integrators without tangents: the large motions of the last period, to begin with in a flow of a neighbouring
+  /// problem.
+  const PassageDerivative &derivative() const { return derivative_; }
+  void                     begin_with(const PassageDerivative &derivative) { derivative_ = derivative; }
   /// Tangents dq, dv [n x k] with which passages begin, when they are asked for; empty: all of the start.
   void carry(const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv);
 
   /// Over `period`; at its end put back along the free shifts of the problem.
-  /// @throws ConvergenceFailure, std::invalid_argument if tangents are asked for and the integrator has none
+  /// @throws ConvergenceFailure
   const PeriodPassage &pass(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double period, bool tangents);
   /// A part of it, from `begin` to `end` [s]; elements begin in the branches of the state.
   /// @throws as pass()
@@ -88,7 +91,7 @@ public:
 
 private:
   void start(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double begin, double end, bool tangents);
-  const PeriodPassage &pass_with_differences(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double period);
+  const PeriodPassage &pass_condensed(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double period);
   void                 require_few(long steps) const;
   void                 finish(const IntegrationWork &before);
   void                 carry_all();
@@ -103,7 +106,9 @@ private:
   MethodOptions                           integration_;
   Motion                                  motion_;
   TimeIntegrator                         &integrator_; ///< of it
-  MotionTangents                         *tangents_ = nullptr;
+  bool                                    own_tangents_ = false;
+  std::unique_ptr<VariedMotion>           varied_;             ///< in their place
+  MotionTangents                         *tangents_ = nullptr; ///< of either
   PeriodPassage                           passage_;
   Eigen::MatrixXd                         dq_begin_, dv_begin_; ///< tangents; empty: all
   bool                                    carries_ = false;
@@ -111,11 +116,10 @@ private:
   double                                  begin_ = 0., end_ = 0.; ///< of the passage [s]
   Eigen::RowVectorXd                      dt_;                    ///< of the event under way
   double                                  t_event_ = 0.;
-  Eigen::VectorXd                         before_;      ///< forces before it
-  Eigen::VectorXd                         largest_[4];  ///< |u|, |v|, |a|, |p| so far
-  PassageDifferences                      differences_; ///< in place of tangents
-  std::unique_ptr<ConsistentStart>        start_;       ///< of neighbouring passages, with joints
-  Eigen::VectorXd                         speeds_;      ///< |q'| so far [n], without tangents
+  Eigen::VectorXd                         before_;     ///< forces before it
+  Eigen::VectorXd                         largest_[4]; ///< |u|, |v|, |a|, |p| so far
+  PassageDerivative                       derivative_;
+  Eigen::VectorXd                         weights_; ///< of its z [2n]
   std::unique_ptr<LinearSolver>           mass_;
   Eigen::VectorXd                         acceleration_;
   std::vector<double>                     looks_; ///< shares of the passage

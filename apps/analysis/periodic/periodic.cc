@@ -32,6 +32,37 @@ namespace
 
 constexpr std::size_t most_rows = 40; ///< of tables and notes, a screen; the files have all
 
+/// Every note once, in the order of solutions, with the numbers of those that have it: "1, 3 to 7".
+std::vector<std::pair<std::string, std::string>> notes_of(const std::vector<PeriodicEntry> &entries)
+{
+  std::vector<std::string>                        notes;
+  std::map<std::string, std::vector<std::size_t>> solutions;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    for (const std::string &note : entries[i].solution.notes)
+    {
+      auto &numbers = solutions[note];
+      if (numbers.empty())
+        notes.push_back(note);
+      if (numbers.empty() || numbers.back() != i + 1)
+        numbers.push_back(i + 1);
+    }
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (std::size_t i = 0; i < std::min(notes.size(), most_rows); ++i)
+  {
+    const auto &numbers = solutions[notes[i]];
+    std::string text;
+    for (std::size_t first = 0, last = 0; first < numbers.size(); first = last + 1)
+    {
+      for (last = first; last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1;)
+        ++last;
+      text += (first > 0 ? ", " : "") + std::to_string(numbers[first]) +
+              (last > first ? " to " + std::to_string(numbers[last]) : "");
+    }
+    texts.emplace_back(notes[i], text);
+  }
+  return texts;
+}
+
 std::string stability_of(const coupling::PeriodicSolution &solution)
 {
   return !solution.stability_is_known() ? "unknown"
@@ -137,9 +168,8 @@ std::vector<Section> sections_of(const Result &, const PeriodicResult &periodic)
   section.parts.insert(section.parts.end(), {special_table(periodic), solutions_table(periodic)});
   if (periodic.parameter.empty())
     section.parts.push_back(signals_table(periodic));
-  for (std::size_t i = 0; i < std::min(periodic.entries.size(), most_rows); ++i)
-    for (const std::string &note : periodic.entries[i].solution.notes)
-      say("no. " + std::to_string(i + 1) + ": " + note);
+  for (const auto &[note, solutions] : notes_of(periodic.entries))
+    say("no. " + solutions + ": " + note);
   for (const std::string &note : periodic.notes)
     say(note);
   section.parts.push_back(checks_table(periodic));

@@ -103,13 +103,14 @@ PeriodicSolution ShootingEquations::solution(const std::string &method) const
 namespace
 {
 
-/// Multipliers that differences do not tell become zero.
-void note_differences(PeriodicSolution &solution)
+/// Multipliers below what was left out become zero.
+void note_condensed(PeriodicSolution &solution)
 {
-  const Eigen::ArrayXd size  = solution.multipliers.cwiseAbs();
-  const auto           known = size >= std::min(PassageDifferences::share, size.maxCoeff());
-  solution.notes.push_back("the " + std::to_string(known.count()) +
-                           " largest multipliers come from differences of periods, to about 0.01; the others are 0");
+  constexpr double   told = 10. * PassageDerivative::left_out; // error of those that are given: a tenth of them at most
+  const auto         known = solution.multipliers.cwiseAbs().array() >= told;
+  std::ostringstream text;
+  text << "multipliers are known to about " << PassageDerivative::left_out << "; those below " << told << " are 0";
+  solution.notes.push_back(text.str());
   solution.multipliers = known.select(solution.multipliers.array(), std::complex<double>(0.));
 }
 
@@ -131,8 +132,8 @@ PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions
   solution.trivial_multiplier = problem.period_is_unknown();
   if (passage.monodromy.size() > 0 && passage.monodromy.rows() == passage.monodromy.cols())
     solution.multipliers = multipliers_of(passage.monodromy, problem);
-  if (passage.runs > 1)
-    note_differences(solution);
+  if (passage.condensed)
+    note_condensed(solution);
   for (const std::string &event : passage.grazing)
     solution.notes.push_back("grazing: " + event +
                              ": the motion touches this event instead of crossing it; stability is one-sided");
@@ -201,7 +202,7 @@ std::string free_motion(const MatrixXd &jacobian, const LinearSystem &linear)
 PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &problem, VectorXd z,
                        const PeriodicOptions &options)
 {
-  const bool with_motion = equations.flow().has_tangents(); // else its matrix costs passages, and is kept
+  const bool with_motion = equations.flow().has_tangents(); // else its matrix costs more than a passage, and is kept
   double     before = 0., after = 0.;
   const auto length = [&](const VectorXd &next)
   {

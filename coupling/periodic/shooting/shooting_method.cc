@@ -1,6 +1,7 @@
 #include "coupling/periodic/shooting/shooting_method.h"
 
 #include "coupling/integration/step/consistent_start.h"
+#include "coupling/integration/step/varied_motion.h"
 #include "coupling/periodic/newton.h"
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting/multiple_shooting.h"
@@ -125,7 +126,7 @@ std::string why_no_start(const SecondOrderSystem &system)
 {
   try
   {
-    ConsistentStart(system, "shooting by differences of periods");
+    ConsistentStart(system, "shooting with ideal joints");
     return "";
   }
   catch (const std::invalid_argument &singular)
@@ -180,16 +181,21 @@ public:
   std::string meaning() const override
   {
     return "Newton's method on q(T) - q(0), q'(T) - q'(0) (5.5.4/1), its matrix by tangents integrated along with the "
-           "motion, through events by saltation; by differences of periods if the integrator has no tangents.";
+           "motion, through events by saltation.";
   }
   std::string refuses(const PeriodicProblem &problem) const override
   {
     if (why_not_propagated(*problem.system, "settling").empty())
       return "";
-    constexpr int most = 1000; // DOFs: the LU of twice as many rows costs as much as a period, of which it takes many
+    constexpr int most = 300; // DOFs: a period with the tangents of all costs as much as settling
     if (problem.turn.size() > most)
-      return "shooting by differences of periods: " + std::to_string(problem.turn.size()) + " DOFs, above " +
-             std::to_string(most) + "; use --method settling";
+      return "shooting without the integrator's own tangents: " + std::to_string(problem.turn.size()) +
+             " DOFs, above " + std::to_string(most) + "; use --method settling";
+    const Eigen::Index measures = problem.system->forces().directions().cols() + problem.system->joints().n_rows();
+    if (measures > VariedMotion::most_measures)
+      return "shooting without the integrator's own tangents: " + std::to_string(measures) +
+             " measures and equations of joints, above " + std::to_string(VariedMotion::most_measures) +
+             "; use --method settling";
     return problem.system->joints().n_rows() > 0 ? why_no_start(*problem.system) : "";
   }
   std::vector<PeriodicOption> options() const override { return {lead_in_option()}; }

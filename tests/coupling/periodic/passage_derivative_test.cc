@@ -15,7 +15,7 @@ using namespace coupling;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// BDF has no tangents.
+/// BDF has no tangents of its own.
 PeriodicOptions by_bdf(double step)
 {
   PeriodicOptions options;
@@ -86,9 +86,8 @@ double farthest(const Eigen::VectorXcd &mu, const Eigen::VectorXcd &from)
 
 } // namespace
 
-/// Multipliers by differences are those of the tangents: to the error of BDF's steps, which is of second order, and a
-/// few times the step of the differences, 1e-4.
-TEST(PassageDifferences, GiveTheMultipliersOfTheTable)
+/// To the error of BDF's steps.
+TEST(PassageDerivative, GivesTheMultipliersOfTheTable)
 {
   for (const ReferenceRow &row : read_reference("periodic/duffing_shooting.csv"))
   {
@@ -108,7 +107,7 @@ TEST(PassageDifferences, GiveTheMultipliersOfTheTable)
 }
 
 /// Across located events they include the saltation.
-TEST(PassageDifferences, PassEvents)
+TEST(PassageDerivative, PassesEvents)
 {
   const ClearanceCase &given = clearance_cases.at("clearance1");
   PlaySystem           system(clearance_system(given));
@@ -120,8 +119,22 @@ TEST(PassageDifferences, PassEvents)
   EXPECT_LT(farthest(exact.multipliers, by_steps.multipliers), 2e-3);
 }
 
+/// Multipliers converge with the square of the step to those of exact tangents.
+TEST(PassageDerivative, IsOfSecondOrder)
+{
+  const DuffingCase &given   = duffing_cases.begin()->second;
+  CubicSystem        system  = duffing_system(given);
+  const auto         problem = problem_of_period(system, 2. * M_PI / given.Omega);
+  const auto         exact   = shot(problem, {}).multipliers;
+  double             error[2];
+  for (const int k : {0, 1})
+    error[k] = farthest(exact, shot(problem, by_bdf(problem.period / (500. * (1 + k)))).multipliers);
+  EXPECT_GT(error[1], 0.);
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 2., 0.2);
+}
+
 /// Two parts that a joint holds together move as one, with the same multipliers.
-TEST(PassageDifferences, StayOnIdealJoints)
+TEST(PassageDerivative, StaysOnIdealJoints)
 {
   constexpr double Omega = 1.1;
   JoinedSystem     joined(Omega);
@@ -138,7 +151,7 @@ TEST(PassageDifferences, StayOnIdealJoints)
 }
 
 /// Through folds, past unstable motions: those of the whole mass at the same parameter, by the same steps.
-TEST(PassageDifferences, AreOfTheStepsThatFollowABranch)
+TEST(PassageDerivative, FollowsABranch)
 {
   const ProblemFamily family = [](double Omega)
   {

@@ -1,0 +1,44 @@
+#include "coupling/periodic/passage_derivative.h"
+
+#include "coupling/integration/system/dense_solvers.h"
+
+#include <cmath>
+#include <random>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+} // namespace
+
+MatrixXd PassageDerivative::monodromy(Index size, const Map &map)
+{
+  MatrixXd Phi;
+  condensed_ = V_.size() > 0 && V_.cols() < size;
+  if (condensed_)
+  {
+    std::mt19937                     random(1); // the same in every call: a motion has one matrix
+    std::normal_distribution<double> normal;
+    VectorXd                         across = VectorXd::NullaryExpr(size, [&](Index) { return normal(random); });
+    across -= V_ * (V_.transpose() * across);
+    MatrixXd X(size, V_.cols() + 1);
+    X << V_, across.normalized();
+    const MatrixXd Y = map(X);
+    // A random direction has 1/sqrt(size) of each of the others.
+    condensed_ = Y.rightCols(1).norm() * std::sqrt(double(size)) <= 10. * left_out;
+    if (condensed_)
+      Phi = Y.leftCols(V_.cols()) * V_.transpose();
+  }
+  if (!condensed_)
+    Phi = map(MatrixXd::Identity(size, size));
+  const SymmetricEigenSolver squares(Phi.transpose() * Phi);
+  const Index                kept = (squares.eigenvalues().array() > left_out * left_out).count();
+  V_                              = squares.eigenvectors().rightCols(kept);
+  return Phi;
+}
+
+} // namespace gestell::coupling
