@@ -5,6 +5,7 @@
 #include "mechanism/elements/common_tangents.h"
 
 #include <cmath>
+#include <optional>
 
 namespace gestell::apps
 {
@@ -59,16 +60,16 @@ double elongation_by(const SceneTable &table, const Loop &loop, double length, d
   return strain > 0. ? strain * loop.strand() : 0.5 * (loop.path() - length);
 }
 
-void add_loop(const SceneTable &table, Scene &scene, const WheelPair &wheels, const Loop &loop, double length,
-              double largest_strain)
+void add_loop(const SceneTable &table, Scene &scene, const WheelPair &wheels, const Loop &loop,
+              const std::optional<double> &length, double largest_strain)
 {
   Belt::Parameters belt;
   belt.stiffness = strand_stiffness(table, loop);
   belt.damping   = table.value("damping");
   belt.circles   = loop.circles();
   belt.distance  = loop.distance;
-  belt.initial   = length > 0. ? elongation_by(table, loop, length, largest_strain)
-                               : table.value_or("pretension", 0.) / belt.stiffness;
+  belt.initial =
+      length ? elongation_by(table, loop, *length, largest_strain) : table.value_or("pretension", 0.) / belt.stiffness;
   TangentsRequest strands;
   strands.first  = loop.from;
   strands.second = loop.to;
@@ -86,7 +87,7 @@ void read_belt(const SceneTable &table, const Names &names, Scene &scene)
   // Belts that hold by their stretch alone are mounted with up to 5 %; beyond, E A is no constant.
   add_loop(table, scene, wheels,
            loop_around(table, table.value("radius_from"), table.truth("crossed") ? -to : to, wheels.distance),
-           table.value_or("length", 0.), 0.05);
+           table.has("length") ? std::optional(table.value("length")) : std::nullopt, 0.05);
 }
 
 /// Radius of the pitch circle, on which the pins lie: p/(2 sin(pi/z)).
@@ -98,6 +99,17 @@ double sprocket(const SceneTable &table, const std::string &key)
   return 0.5 * table.value("pitch") / std::sin(M_PI / teeth);
 }
 
+/// Length of the chain by its links.
+std::optional<double> read_links(const SceneTable &table)
+{
+  if (!table.has("links"))
+    return std::nullopt;
+  const int links = table.whole("links");
+  if (links < 1)
+    throw table.error("links", "is " + std::to_string(links) + "; a chain has at least as many as its way needs");
+  return links * table.value("pitch");
+}
+
 void read_chain(const SceneTable &table, const Names &names, Scene &scene)
 {
   if (table.has("pretension") && table.has("links"))
@@ -106,13 +118,14 @@ void read_chain(const SceneTable &table, const Names &names, Scene &scene)
   // Steel yields before half a percent.
   add_loop(table, scene, wheels,
            loop_around(table, sprocket(table, "teeth_from"), sprocket(table, "teeth_to"), wheels.distance),
-           table.has("links") ? table.whole("links") * table.value("pitch") : 0., 0.005);
+           read_links(table), 0.005);
 }
 
 std::vector<Key> strand_keys()
 {
   return {key::number("stiffness", kind::stiffness, "of one strand").above_zero().by_default("`rigidity`"),
-          key::number("rigidity", kind::force, "E A: a strand has the stiffness E A/l, l its free length in the initial configuration")
+          key::number("rigidity", kind::force,
+                      "E A: a strand has the stiffness E A/l, l its free length in the initial configuration")
               .above_zero()
               .by_default("`stiffness`"),
           key::number("damping", kind::damping, "of one strand while it is taut").from_zero().by_default(0.)};

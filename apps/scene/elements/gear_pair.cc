@@ -94,7 +94,9 @@ ElementType gear_pair_type()
                            "the same on `to`; negative: a ring with inner teeth. The distance of the centres is the "
                            "sum of both, within 1e-4")
                    .into(&Teeth::to),
-               key::number("pressure_angle", kind::angle, "normal to the teeth").by_default(&Teeth::pressure_angle),
+               key::number("pressure_angle", kind::angle, "normal to the teeth")
+                   .by_default("20 deg")
+                   .into(&Teeth::pressure_angle),
                key::number("helix_angle", kind::angle,
                            "on the pitch circle; positive: the gear on `from` is "
                            "right-handed")
