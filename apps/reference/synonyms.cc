@@ -7,8 +7,8 @@ const std::vector<Synonym> &synonyms()
 {
   static const std::vector<Synonym> all = {
       {"backlash", {"element.gear pair", "element.clearance"}},
-      {"ball bearing", {"element.journal bearing", "element.table force", "joint.revolute"}},
-      {"bearing", {"joint.revolute", "element.journal bearing", "element.table force", "body.rotor"}},
+      {"ball bearing", {"element.rolling bearing", "element.journal bearing"}},
+      {"bearing", {"joint.revolute", "element.rolling bearing", "element.journal bearing", "body.rotor"}},
       {"bolster", {"frame.interface"}},
       {"bushing", {"element.journal bearing", "joint.revolute"}},
       {"cable", {"element.rope"}},

@@ -378,6 +378,47 @@ TEST(BeltsAndGears, AreTheSameInOtherUnits)
   }
 }
 
+/// A body under a force in the plane of its bearing, at rest.
+std::string in_bearing(const std::string &rows, double angle, double load)
+{
+  return point_body("shaft", "20 kg", "[0, 0, 0]") +
+         element("bearing", "rolling bearing",
+                 {{"from", "ground"},
+                  {"to", "shaft"},
+                  {"at", "[0, 0, 0]"},
+                  {"axis", "[0, 1, 0]"},
+                  {"table", rows},
+                  {"axial_stiffness", "50 N/um"}}) +
+         element("load", "force",
+                 {{"from", "shaft"},
+                  {"direction", vector(std::cos(angle), 0., std::sin(angle))},
+                  {"constant", number(load)}}) +
+         element("push", "force", {{"from", "shaft"}, {"direction", "[0, 1, 0]"}, {"constant", "100 N"}}) +
+         start("rule = 'static'") + steps("1 us", "2 us") +
+         signals("x = 'shaft.ux', y = 'shaft.uy', z = 'shaft.uz', F = 'bearing.force', e = 'bearing.eccentricity'");
+}
+
+// Its rows are met in every direction; between two of one slope it is straight, beyond the last one it goes on.
+TEST(RollingBearing, YieldsByItsTableInEveryDirection)
+{
+  const std::string rows = "[['5 um', '1.5 kN'], ['10 um', '3.5 kN'], ['20 um', '9 kN']]";
+  for (const double angle : {0., 0.7, 2.5, -1.2})
+    for (const auto &[e, F] : {std::pair{5e-6, 1500.}, {1e-5, 3500.}, {2e-5, 9000.}})
+    {
+      const SceneRun motion = run(in_bearing(rows, angle, F));
+      const auto     at     = [&](const char *name) { return motion.at(0, motion.column(name)); };
+      EXPECT_NEAR(at("F"), F, 1e-9 * F);
+      EXPECT_NEAR(at("e"), e, 1e-9 * e);
+      EXPECT_NEAR(at("x"), e * std::cos(angle), 1e-9 * e);
+      EXPECT_NEAR(at("z"), e * std::sin(angle), 1e-9 * e);
+      EXPECT_NEAR(at("y"), 2e-6, 1e-9 * e);
+    }
+  const SceneRun straight = run(in_bearing("[['10 um', '2 kN']]", 0.4, 5000.));
+  EXPECT_NEAR(straight.at(0, straight.column("e")), 2.5e-5, 1e-9 * 2.5e-5);
+  expect_complaint(with(in_bearing(rows, 0., 1.), "10 um", "4 um"), "rows rise from zero");
+  expect_complaint(with(in_bearing(rows, 0., 1.), "9 kN", "3 kN"), "resists more the further it yields");
+}
+
 // The other way to be out of balance: a planar body whose centre of mass lies beside its joint is a rotor of the
 // unbalance m e and of the inertia J + m e^2; both runs err by the square of their step.
 TEST(PlanarBody, BesideItsJointIsARotorOutOfBalance)
