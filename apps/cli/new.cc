@@ -31,7 +31,7 @@ std::vector<std::string> kinds()
 void list_kinds()
 {
   for (const SceneTemplate &any : scene_templates())
-    std::cout << any.kind << std::string(15 - any.kind.size(), ' ') << headline(any) << '\n';
+    std::cout << any.kind << std::string(20 - any.kind.size(), ' ') << headline(any) << '\n';
 }
 
 /// Name of the scene in a file.

@@ -1,6 +1,7 @@
 #include "apps/reference/help_text.h"
 
 #include "apps/reference/study_tables.h"
+#include "apps/reference/synonyms.h"
 #include "fem/values/nearest_name.h"
 
 #include <regex>
@@ -84,12 +85,9 @@ std::string keys_called(const std::string &topic)
   return text;
 }
 
-} // namespace
-
-std::string help_text(const std::string &topic)
+/// The tables, or the keys, of that very name; empty: there are none.
+std::string under_name(const std::string &topic)
 {
-  if (topic.empty())
-    return list_of_tables();
   for (const DeclaredTable &table : told_tables())
     if (topic == table.path)
     {
@@ -101,8 +99,24 @@ std::string help_text(const std::string &topic)
   for (const DeclaredTable &table : told_tables())
     if (topic == last_part(table.path))
       return table_text(table);
-  if (const std::string text = keys_called(topic); !text.empty())
-    return text;
+  return keys_called(topic);
+}
+
+/// Tables that describe what is called `topic` in the workshop.
+std::string under_synonym(const std::string &topic)
+{
+  std::string text;
+  for (const Synonym &synonym : synonyms())
+    if (topic == synonym.word)
+      for (const std::string &path : synonym.tables)
+        for (const DeclaredTable &table : told_tables())
+          if (path == table.path)
+            text += padded(table.path) + plain(table.does) + "\n";
+  return text;
+}
+
+std::invalid_argument unknown(const std::string &topic)
+{
   std::set<std::string> names;
   for (const DeclaredTable &table : told_tables())
   {
@@ -114,8 +128,23 @@ std::string help_text(const std::string &topic)
       names.insert(table.path + "." + key.name);
     }
   }
-  throw std::invalid_argument("help: there is no table or key '" + topic + "'" +
-                              suggestion(topic, {names.begin(), names.end()}));
+  for (const Synonym &synonym : synonyms())
+    names.insert(synonym.word);
+  return std::invalid_argument("help: there is no table or key '" + topic + "'" +
+                               suggestion(topic, {names.begin(), names.end()}));
+}
+
+} // namespace
+
+std::string help_text(const std::string &topic)
+{
+  if (topic.empty())
+    return list_of_tables();
+  const std::string named = under_name(topic), related = under_synonym(topic);
+  if (named.empty() && related.empty())
+    throw unknown(topic);
+  return named + (named.empty() || related.empty() ? "" : "\n") +
+         (related.empty() ? "" : "Tables for '" + topic + "'; gestell help TABLE lists their keys.\n\n" + related);
 }
 
 } // namespace gestell::apps

@@ -28,8 +28,9 @@ SceneTemplate scene_template(const std::string &kind)
       return any;
     kinds.push_back(any.kind);
   }
+  const std::string nearest = nearest_name(kind, kinds);
   throw std::invalid_argument("there is no kind of machine '" + kind + "'; the kinds are " + listed(kinds) +
-                              suggestion(kind, kinds));
+                              (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
 }
 
 SceneTemplate named(SceneTemplate draft, const std::string &name)

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mechanism/differentiable_element.h"
-#include "mechanism/elements/one_sided_contact.h"
+#include "mechanism/one_sided_contact.h"
 
 #include <cmath>
 

@@ -82,6 +82,7 @@ RelativeMeasure::Value RelativeMeasure::evaluate(const Places &places, const dou
   case Form::spin:
     return spin(pair);
   case Form::gear:
+  case Form::strand:
   case Form::ratio:
     break;
   }
@@ -185,7 +186,7 @@ RelativeMeasure::Value RelativeMeasure::spin(Pair &pair) const
   return sum;
 }
 
-/// For `ratio` and `gear`.
+/// For `ratio`, `gear` and `strand`.
 RelativeMeasure::Value RelativeMeasure::ratio(Pair &pair) const
 {
   const Eigen::Index k_1 = pair.of_1.size(), k_2 = pair.of_2.size();
@@ -200,33 +201,36 @@ RelativeMeasure::Value RelativeMeasure::ratio(Pair &pair) const
   if (form == Form::ratio)
     return {s, rate, 0.};
   Vector3d    of_d;
-  const Value centres = mesh(pair.d, pair.d_rate, pair.d_bias, s / reach, of_d);
+  const Value centres = mesh(pair.d, pair.d_rate, pair.d_bias, s, of_d);
   pair.add_difference(of_d);
   return {s + centres.s, rate + centres.rate, centres.bias};
 }
 
 /// Meshing wheels have rotated with the line of centres up to a small difference: the nearest psi + 2 pi n is used.
 RelativeMeasure::Value RelativeMeasure::mesh(const Vector3d &d, const Vector3d &d_rate, const Vector3d &d_bias,
-                                             double turned, Vector3d &of_d) const
+                                             double wound, Vector3d &of_d) const
 {
   const double x = a.dot(d), y = b.dot(d), r2 = x * x + y * y, r = std::sqrt(r2);
   of_d.setZero();
   if (!(r2 > 0.))
     return {0., 0., 0.};
   const double   psi    = std::atan2(y, x);
+  const double   turns  = form == Form::gear ? std::round((wound / reach - psi) / (2. * M_PI)) : 0.;
   const Vector3d across = (x * b - y * a) / r2, radial = (x * a + y * b) / r;
   const double   psi_rate = across.dot(d_rate), r_rate = radial.dot(d_rate);
   of_d = -reach * across;
-  Value        sum{-reach * (psi + 2. * M_PI * std::round((turned - psi) / (2. * M_PI))), -reach * psi_rate,
+  Value        sum{-reach * (psi + 2. * M_PI * turns), -reach * psi_rate,
             -reach * (across.dot(d_bias) - 2. * psi_rate * r_rate / r)};
-  const double c = std::abs(reach);
-  if (flank == 0. || r <= c) // no common tangent of the base circles: none of its force is radial
+  const double circles = flank == 0. ? r : std::abs(reach / flank);
+  if (r <= circles) // no common tangent of the circles: none of its force is radial
     return sum;
-  const double cosine = c / r, sine = std::sqrt((1. - cosine) * (1. + cosine)), push = flank * sine / c;
-  of_d += push * radial;
-  sum.s += flank * (sine / cosine - std::acos(cosine) - std::tan(pressure_angle) + pressure_angle);
-  sum.rate += push * r_rate;
-  sum.bias += push * (radial.dot(d_bias) + r * psi_rate * psi_rate) + flank * cosine / (r2 * sine) * r_rate * r_rate;
+  const auto h = [=](double D) { return std::sqrt((D - circles) * (D + circles)) - circles * std::acos(circles / D); };
+  const double slope = std::sqrt((1. - circles / r) * (1. + circles / r));
+  of_d += flank * slope * radial;
+  sum.s += flank * (h(r) - h(distance_0));
+  sum.rate += flank * slope * r_rate;
+  sum.bias += flank * (slope * (radial.dot(d_bias) + r * psi_rate * psi_rate) +
+                       circles * circles / (r * r2 * slope) * r_rate * r_rate);
   return sum;
 }
 

@@ -18,14 +18,17 @@ namespace gestell::mechanism
  *                    body 1 about a x b                                                    [rad]
  *     ratio          sum c_i u_i         of the measures themselves                           [m or rad]
  *     spin           s' = a . (w_2 - w_1), angular velocities; s itself has no meaning, 0     [rad/s]
- *     gear           sum c_i u_i - c psi + f (inv(alpha) - inv(alpha_0)), two wheels in mesh  [m]
+ *     gear, strand   sum c_i u_i - c psi + f [h(D) - h(D_0)], the common tangent of two wheels  [m]
  *
- * of which psi is the inclination, continued over any number of turns, cos(alpha) = |c|/|d| in the plane of a, b and
- * inv(x) = tan(x) - x the involute function.
+ * of which D = |d| in the plane of a, b and psi is the inclination, for `gear` continued over any number of turns near
+ * s = 0, for `strand` in (-pi, pi]. The tangent touches circles with the sum or difference b = |c/f| of their radii; it
+ * has the length sqrt(D^2 - b^2) between them, and
+ *
+ *     h(D) = sqrt(D^2 - b^2) - b arccos(b/D),     h' = sqrt(1 - (b/D)^2).
  *
  * Ideal joints prescribe its value, elements act on it, signals report it.
  *
- * Source: docs/theory/joints.md (2); of spin contact.md (4a), of mesh position_functions.md (2a).
+ * Source: docs/theory/joints.md (2); of spin contact.md (4a), of gear, strand position_functions.md (2a).
  */
 struct RelativeMeasure
 {
@@ -38,7 +41,8 @@ struct RelativeMeasure
     angle,
     ratio,
     spin,
-    gear
+    gear,
+    strand
   };
   enum class Carrier
   {
@@ -54,10 +58,10 @@ struct RelativeMeasure
   Vector3d            a       = Vector3d::Zero(); ///< direction; of `square` on body 1
   Vector3d            b       = Vector3d::Zero(); ///< for `square` on body 2; for both angles normal to a
   Carrier             carrier = Carrier::space;   ///< of a in `along`
-  std::vector<double> ratios;                     ///< c_i [k] of `ratio` and `gear`
-  double              reach          = 0.;        ///< c of `gear` [m], not zero
-  double              flank          = 0.;        ///< f of `gear`: c or -c for the flank in contact; 0: alpha_0 = 0
-  double              pressure_angle = 0.;        ///< alpha_0 of `gear` [rad], 0 <= alpha_0 < pi/2
+  std::vector<double> ratios;                     ///< c_i [k] of `ratio`, `gear` and `strand`
+  double              reach      = 0.;            ///< c of `gear`, not zero, and `strand` [m]
+  double              flank      = 0.;            ///< f of `gear` and `strand`; 0: forces have no part along d
+  double              distance_0 = 0.;            ///< D_0 of both [m], at least |c/f|
 
   /// s, s' = G u' and s'' = G u'' + bias.
   struct Value
@@ -87,8 +91,8 @@ private:
   Value angle(Pair &pair) const;
   Value spin(Pair &pair) const;
   Value ratio(Pair &pair) const;
-  /// Of `gear`: what the line of centres adds to the angles of the wheels.
-  Value mesh(const Vector3d &d, const Vector3d &d_rate, const Vector3d &d_bias, double turned, Vector3d &of_d) const;
+  /// Of `gear` and `strand`: what the line of centres adds to `wound`, the sum c_i u_i of the wheels.
+  Value mesh(const Vector3d &d, const Vector3d &d_rate, const Vector3d &d_bias, double wound, Vector3d &of_d) const;
 };
 
 /// Positions of two bodies, and a scalar of their motion.

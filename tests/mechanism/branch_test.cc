@@ -3,6 +3,7 @@
 
 #include "mechanism/elements/blanking_force.h"
 #include "mechanism/elements/clearance.h"
+#include "mechanism/elements/common_tangents.h"
 #include "mechanism/elements/connecting_rod.h"
 #include "mechanism/elements/cutting_force.h"
 #include "mechanism/elements/formula_force.h"
@@ -128,6 +129,24 @@ std::vector<Switch> switches()
   all.push_back({"point_lands", plane, numbers(0.), contact_probe(probe1(1e-5, -0.1)), 0, "contact"});
   all.push_back({"point_lifts_off", plane, lying, contact_probe(probe1(1e-5, 0.1)), 0, "separation"});
   all.push_back({"point_lost", plane, lying, contact_probe(probe1(0., 0.25, 1e3)), 1, "contact_slack"});
+  // Left strand at its deflection d, the right one taut; then the right flank of a gear. With damping, forces begin
+  // with a jump.
+  const auto strands = std::make_shared<Belt>(Belt::Parameters{8e4, 50., 5e-3, -0.09, 0.5});
+  const auto strand  = [](double d, double v, double a = 0.) {
+    return Probe{0.3, Eigen::Vector3d(d - 5e-3, 1e-4, 1e-5), Eigen::Vector3d(v, 0.1, 0.), Eigen::Vector3d(a, 0., 0.)};
+  };
+  all.push_back({"strand_met", std::make_shared<Belt>(Belt::Parameters{8e4, 0., 5e-3, -0.09, 0.5}), numbers(0., 1.),
+                 strand(0., 0.1), 0, "left_taut"});
+  all.push_back({"strand_slack", strands, numbers(1., 1.), strand(1e-4, -0.16, -1e3), 0, "left_slack"});
+  all.push_back({"strand_again", strands, numbers(2., 1.), strand(1e-4, -0.16, 1e3), 0, "left_taut"});
+  all.push_back({"strand_relaxed", strands, numbers(2., 1.), strand(0., -0.3), 1, "left_relaxed"});
+  const auto teeth = std::make_shared<GearPair>(GearPair::Parameters{5e6, 500., -1e-4, 0.47, 0.5}, 0.2);
+  const auto flank = [](double d, double v) {
+    return Probe{0.3, Eigen::Vector3d(-d - 3e-4, d + 1e-4, 1e-5), Eigen::Vector3d(-v, v, 0.), Eigen::Vector3d::Zero()};
+  };
+  all.push_back({"flank_met", std::make_shared<GearPair>(GearPair::Parameters{5e6, 0., -1e-4, 0.47, 0.5}, 0.2),
+                 numbers(0., 0.), flank(0., 0.1), 1, "right_contact"});
+  all.push_back({"flank_left", teeth, numbers(0., 1.), flank(1e-5, -0.1), 1, "right_separation"});
   const auto over_u = std::make_shared<TableForce>(table(TableForce::Against::displacement));
   const auto over_v = std::make_shared<TableForce>(table(TableForce::Against::rate));
   const auto over_t = std::make_shared<TableForce>(table(TableForce::Against::time));

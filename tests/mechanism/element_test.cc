@@ -2,6 +2,7 @@
 
 #include "mechanism/elements/blanking_force.h"
 #include "mechanism/elements/clearance.h"
+#include "mechanism/elements/common_tangents.h"
 #include "mechanism/elements/connecting_rod.h"
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/cubic_spring.h"
@@ -14,6 +15,7 @@
 #include "mechanism/elements/lugre_friction.h"
 #include "mechanism/elements/point_contact.h"
 #include "mechanism/elements/regularised_friction.h"
+#include "mechanism/elements/rolling_bearing.h"
 #include "mechanism/elements/rope.h"
 #include "mechanism/elements/speed_drive.h"
 #include "mechanism/elements/table_force.h"
@@ -138,6 +140,18 @@ std::vector<Case> cases()
        probe1(-9e-5, 0.1)},
       {"rope_taut", std::make_shared<Rope>(Rope::Parameters{1e4, 50., 2e-3}), probe1(3e-3, -0.1)},
       {"rope_slack", std::make_shared<Rope>(Rope::Parameters{1e4, 50., 2e-3}), probe1(1e-3, 0.1)},
+      {"belt_taut", std::make_shared<Belt>(Belt::Parameters{8e4, 50., 5e-3, -0.09, 0.5}),
+       probe3({1e-3, -1e-3, 1e-5}, {0.1, -0.2, 0.3})},
+      {"belt_slack", std::make_shared<Belt>(Belt::Parameters{8e4, 50., 5e-3, -0.09, 0.5}),
+       probe3({6e-3, -6e-3, 1e-5}, {0.1, -0.2, 0.3})},
+      {"rolling",
+       std::make_shared<RollingBearing>(
+           RollingBearing::Parameters{{{5e-6, 0.}, {1e-5, 800.}, {2e-5, 4500.}}, 2e3, 1e8}),
+       probe3({8e-6, -9e-6, 1e-5}, {0.1, -0.1, 0.3}), 1e-9},
+      {"rolling_beyond", std::make_shared<RollingBearing>(RollingBearing::Parameters{{{1e-5, 800.}}, 2e3, 1e8}),
+       probe3({8e-6, -9e-6, 1e-5}, {0.1, -0.1, 0.3}), 1e-9},
+      {"teeth", std::make_shared<GearPair>(GearPair::Parameters{5e6, 500., -1e-4, 0.47, 0.5}, 0.2),
+       probe3({-3e-4, 3e-4, 1e-5}, {0.1, -0.1, 0.3})},
       {"gas", std::make_shared<GasForce>(GasForce::Parameters{1e-2, 5e-5, 0., 1.3, 2e5, 1e5, false, {}}),
        probe1(-0.05, 0.1)},
       {"drawing_elastic", std::make_shared<DrawingForce>(DrawingForce::Parameters{1e4, 1e8, 0., 3e-3}),

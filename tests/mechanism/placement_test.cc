@@ -198,23 +198,25 @@ TEST(RelativeMeasure, TheAngleDoesNotDependOnTheDirectionsItIsTakenBetween)
   EXPECT_NEAR(first, 1.1, 0.05);
 }
 
-/// Wheels in mesh: any combination of their measures, the line of centres, the other flank.
+/// Wheels in mesh or with a belt: any combination of their measures, the line of centres, the other flank.
 TEST(RelativeMeasure, AMeshHasTheGradientAndTheBiasOfItsValue)
 {
   const auto all = placements();
-  for (const double angle : {0., 0.35, -0.35})
+  for (const auto &[form, reach, flank] :
+       {std::tuple(Form::gear, -0.9, 0.), std::tuple(Form::gear, -0.85, 1.), std::tuple(Form::gear, -0.85, -0.9),
+        std::tuple(Form::strand, 0., 1.), std::tuple(Form::strand, 0.4, 1.)})
     for (const Placement &second : all)
     {
       RelativeMeasure mesh;
-      mesh.form = Form::gear;
+      mesh.form = form;
       mesh.a    = Vector3d(2., -1., 2.) / 3.;
       mesh.b    = Vector3d(2., 2., -1.) / 3.;
       PlacedMeasure placed{Placement(Vector3d(-1., 0.5, -1.2), Vector3d(-1., 0.4, -1.), {}, axis), second, mesh};
-      auto         &m  = placed.measure;
-      m.pressure_angle = std::abs(angle);
-      m.reach          = -0.9 * std::cos(angle);
-      m.flank          = angle == 0. ? 0. : angle > 0. ? m.reach : -m.reach;
-      const int n      = placed.n_measures();
+      auto         &m = placed.measure;
+      m.reach         = reach;
+      m.flank         = flank;
+      m.distance_0    = 1.;
+      const int n     = placed.n_measures();
       for (int i = 0; i < n; ++i)
         m.ratios.push_back(std::cos(2. + 3.1 * i));
       const Path path(n);

@@ -1,3 +1,4 @@
+#include "mechanism/elements/rolling_bearing.h"
 #include "mechanism/elements/table_force.h"
 #include "tests/support/element_probe.h"
 #include "tests/support/refusal.h"
@@ -131,6 +132,30 @@ TEST(TableForce, RefusesARowByItsNumber)
   refused({{0., 1.}, {std::nan(""), 2.}}, "row 2, abscissa");
   refused({{0., 1.}, {1., HUGE_VAL}}, "row 2, force");
   refused({{0., 0.}, {1e-320, 1e10}}, "further from the row before");
+}
+
+// At rest its stiffness is that of its force, along the load and across it; the rows of a table are met.
+TEST(RollingBearing, HasTheStiffnessAndTheEnergyOfItsForce)
+{
+  const RollingBearing bearing({{{5e-6, 0.}, {1e-5, 800.}, {2e-5, 4500.}}, 2e3, 1e8});
+  for (const double r : {0., 3e-6, 8e-6, 1.1e-5, 1.7e-5, 3e-5})
+  {
+    const Probe probe{0., Eigen::Vector3d(0.6 * r, -0.8 * r, 1e-6), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    Eigen::Vector3d p;
+    Eigen::Matrix3d K = Eigen::Matrix3d::Zero(), D = K, dp_du, dp_dv;
+    bearing.derivatives(probe.motion(), nullptr, p.data(), dp_du.data(), dp_dv.data());
+    bearing.engaged(probe.u.data(), K.data(), D.data());
+    EXPECT_LE((K + dp_du).norm(), 1e-12 * K.norm()) << r;
+    EXPECT_LE((D + dp_dv).norm(), 1e-12 * D.norm()) << r;
+    Probe further = probe, before = probe; // the energy is cubic at most between rows: quotients err by h^2 of F''
+    further.u *= 1. + 1e-4, before.u *= 1. - 1e-4;
+    const double rise =
+        bearing.stored_energy(further.motion(), nullptr) - bearing.stored_energy(before.motion(), nullptr);
+    EXPECT_NEAR(rise, -2e-4 * p.dot(probe.u), 1e-7 * std::abs(2e-4 * p.dot(probe.u)) + 1e-19) << r;
+  }
+  const Probe at_row{0., Eigen::Vector3d(1e-5, 0., 0.), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  EXPECT_NEAR(bearing.quantity(0, at_row.motion(), nullptr), 800., 1e-12 * 800.);
+  expect_refusal([] { RollingBearing({{{1e-5, 0.}}, 0., 0.}); }, "last row");
 }
 
 } // namespace

@@ -41,7 +41,8 @@ std::optional<Vector> kind_of(const std::string &table, const std::string &type,
 {
   static const std::set<std::string> points{"at", "at_from", "at_to", "through", "position", "unbalance_position"};
   static const std::set<std::string> polars{"direction", "zero", "towards", "axis_from", "axis_to"};
-  static const std::set<std::string> turn_about{"rotor", "revolute", "gear mesh", "journal bearing"};
+  static const std::set<std::string> turn_about{"rotor", "revolute", "gear mesh", "journal bearing",
+                                                "belt",  "chain",    "gear pair", "rolling bearing"};
   if (points.count(key))
     return Vector::point;
   if (polars.count(key))

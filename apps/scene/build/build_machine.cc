@@ -3,6 +3,7 @@
 #include "apps/scene/bodies/body_types.h"
 #include "apps/scene/build/build_measures.h"
 #include "apps/scene/build/carried_bodies.h"
+#include "apps/scene/build/tangent_measures.h"
 #include "apps/scene/joints/compliance.h"
 #include "apps/scene/joints/joint_friction.h"
 #include "apps/scene/joints/joint_types.h"
@@ -87,6 +88,23 @@ void add_joint(coupling::MachineModel &machine, const JointRequest &joint)
   if (joint.friction)
     add_joint_friction(machine, joint, type.friction, pair, equations.list);
   draw_joint(machine, joint, type.drawn, pair);
+}
+
+/// Attaches a law on the common tangents of two wheels.
+void attach_on_tangents(coupling::MachineModel &machine, const ElementRequest &element)
+{
+  const PairRequest     &request = *element.pair;
+  const TangentsRequest &wheels  = *request.tangents;
+  const Pair             described(machine, request.from, request.to);
+  const double           distance = centre_distance(described.first, described.second, vector(wheels.axis));
+  const PlaceRequest     from     = on_own_axis(machine, request.from, distance),
+                     to           = on_own_axis(machine, request.to, distance);
+  const Pair pair(machine, from, to);
+  machine.attach(element.name,
+                 std::make_shared<mechanism::TransmittedElement>(pair.first, pair.second,
+                                                                 tangent_measures(wheels, pair), element.element),
+                 pair.measures);
+  draw_places(machine, from, to);
 }
 
 /// Attaches a law that acts between two places, on the measures of its PairRequest.
@@ -240,7 +258,7 @@ void fill(coupling::MachineModel &machine, const Scene &scene)
              }
              if (element.pair)
              {
-               attach_between(machine, element);
+               element.pair->tangents ? attach_on_tangents(machine, element) : attach_between(machine, element);
                return;
              }
              auto measures = measures_of(element.measures, machine);

@@ -1,5 +1,6 @@
 #include "apps/scene/build/build_measures.h"
 
+#include "apps/scene/build/tangent_measures.h"
 #include "fem/values/number_text.h"
 #include "mechanism/elements/follower_load.h"
 #include "mechanism/joints/measure_joint.h"
@@ -27,29 +28,12 @@ struct Built
 mechanism::RelativeMeasure mesh_of(const MeshRequest &request, const mechanism::Placement &first,
                                    const mechanism::Placement &second)
 {
-  using mechanism::Vector3d;
-  const Vector3d axis    = vector(request.axis);
-  Vector3d       centres = second.point() - first.point();
-  centres -= axis.dot(centres) * axis;
-  const double distance = centres.norm();
-  if (!(distance > 1e-9 * (first.point().norm() + second.point().norm())))
-    throw std::invalid_argument("the two wheels have one axis, so that no teeth are in mesh; a joint of type \"gear\" "
-                                "with a carrier couples them");
-  const double               angle = std::abs(request.pressure_angle), to = distance / std::abs(1. - request.ratio);
-  mechanism::RelativeMeasure mesh;
-  mesh.form           = mechanism::RelativeMeasure::Form::gear;
-  mesh.a              = centres / distance;
-  mesh.b              = axis.cross(mesh.a);
-  mesh.pressure_angle = angle;
-  mesh.reach          = to * (1. - request.ratio) * std::cos(angle);
+  const double angle = std::abs(request.pressure_angle), to = centre_distance(first, second, vector(request.axis)) /
+                                                              std::abs(1. - request.ratio) * std::cos(angle);
   // Teeth push: apart the wheels, or the wheel out of its ring.
   const bool apart = (request.ratio < 0.) == (request.pressure_angle > 0.);
-  mesh.flank       = angle > 0. ? (apart ? 1. : -1.) * std::abs(mesh.reach) : 0.;
-  for (int i = 0; i < first.n_measures(); ++i)
-    mesh.ratios.push_back(-request.ratio * to * std::cos(angle) * first.rotation(i).dot(axis));
-  for (int i = 0; i < second.n_measures(); ++i)
-    mesh.ratios.push_back(to * std::cos(angle) * second.rotation(i).dot(axis));
-  return mesh;
+  return tangent_of(first, second, vector(request.axis), {-request.ratio * to, to},
+                    angle > 0. ? (apart ? 1. : -1.) : 0., mechanism::RelativeMeasure::Form::gear);
 }
 
 std::string triple(const Vector3 &a)

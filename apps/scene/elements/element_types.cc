@@ -12,7 +12,8 @@ TypeOfElement spring_damper_type, point_mass_type, connecting_rod_type, blanking
     asynchronous_motor_type, clearance_type, stop_type, journal_bearing_type, contact_type, guide_with_play_type,
     friction_type, dry_friction_type, cubic_spring_type, force_type, table_force_type, wheel_type, formula_force_type,
     force_profile_type, speed_drive_type, dynamic_motor_type, hydraulic_cylinder_type, brake_type, clutch_type,
-    rope_type, lugre_friction_type, gas_force_type, drawing_force_type;
+    rope_type, lugre_friction_type, gas_force_type, drawing_force_type, belt_type, chain_type, gear_pair_type,
+    rolling_bearing_type;
 
 const std::vector<ElementType> &element_types()
 {
@@ -21,7 +22,8 @@ const std::vector<ElementType> &element_types()
       asynchronous_motor_type, clearance_type, stop_type, journal_bearing_type, contact_type, guide_with_play_type,
       friction_type, dry_friction_type, cubic_spring_type, force_type, table_force_type, wheel_type, formula_force_type,
       force_profile_type, speed_drive_type, dynamic_motor_type, hydraulic_cylinder_type, brake_type, clutch_type,
-      rope_type, lugre_friction_type, gas_force_type, drawing_force_type);
+      rope_type, lugre_friction_type, gas_force_type, drawing_force_type, belt_type, chain_type, gear_pair_type,
+      rolling_bearing_type);
   return types;
 }
 

@@ -214,13 +214,25 @@ struct LagRequest
   double      time_constant = 0.;
 };
 
+/// Both common tangents of two wheels in one plane, and the distance of their centres: mechanism::CommonTangents.
+struct TangentsRequest
+{
+  Vector3 axis{};                  ///< of both wheels, unit vector
+  double  first = 0., second = 0.; ///< radii that the tangents touch [m]; of one sign: they touch from the same side
+  double  factor      = 1.;        ///< of their lengthening; negative: they are loaded by shortening
+  double  advance     = 0.;    ///< of the motion of `to` along the axis, for the left tangent; for the right -advance
+  double  pitch_point = 0.;    ///< where that motion counts: its distance from the first centre [m]
+  bool    winds       = false; ///< the line of centres may turn any number of times
+};
+
 /// Motion of point `to` relative to the body of `from`: displacements along directions fixed to that body, then its
-/// rotation about an axis, if any.
+/// rotation about an axis, if any; or the tangents of two wheels.
 struct PairRequest
 {
-  PlaceRequest           from, to;
-  std::vector<Vector3>   along; ///< unit vectors
-  std::optional<Vector3> about; ///< unit vector
+  PlaceRequest                           from, to;
+  std::vector<Vector3>                   along; ///< unit vectors
+  std::optional<Vector3>                 about; ///< unit vector
+  std::shared_ptr<const TangentsRequest> tangents{};
 };
 
 struct ElementRequest

@@ -31,7 +31,9 @@ TEST_P(NewScene, RunsAsItIs)
     EXPECT_EQ(run.text.compare(at, 14, "warning: mesh:"), 0) << run.text;
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, NewScene, testing::Values("frame", "slider-crank", "cam", "press", "crane"),
+INSTANTIATE_TEST_SUITE_P(Kinds, NewScene,
+                         testing::Values("frame", "slider-crank", "cam", "press", "crane", "loom",
+                                         "vibrating-conveyor"),
                          [](const testing::TestParamInfo<const char *> &kind)
                          {
                            const std::string name = kind.param;
@@ -40,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, NewScene, testing::Values("frame", "slider-crank
 
 TEST(NewSceneFile, KindsAreThoseThatAreTested)
 {
-  EXPECT_EQ(apps::scene_templates().size(), 5u);
+  EXPECT_EQ(apps::scene_templates().size(), 7u);
 }
 
 TEST(NewSceneFile, OverwritesNothing)
@@ -62,6 +64,7 @@ TEST(NewSceneFile, WhereNothingCanBeWrittenIsAMistakeOfInput)
 TEST(NewSceneFile, OfNoSuchKindNamesTheNearest)
 {
   expect_answer(gestell("new pres"), 2, {"'pres'", "did you mean 'press'?"});
+  expect_answer(gestell("new mill"), 2, {"there is no kind of machine 'mill'", "'loom'", "'vibrating-conveyor'"});
   expect_answer(gestell("new press machine.step"), 2, {"ends in .toml"});
 }
 

@@ -4,6 +4,7 @@
 #include "apps/reference/help_text.h"
 #include "apps/reference/json_schema.h"
 #include "apps/reference/key_tables.h"
+#include "apps/reference/synonyms.h"
 #include "apps/scene/bodies/body_types.h"
 #include "apps/scene/elements/element_types.h"
 #include "apps/scene/file/scene_file.h"
@@ -301,6 +302,22 @@ TEST(Documents, AreWhatTheDeclarationsGive)
     const std::string family = table.type.empty() ? table.path : table.path.substr(0, table.path.find('.'));
     EXPECT_NE(all.find("<!-- keys: " + family + " -->"), std::string::npos) << table.path << " stands in no document";
   }
+}
+
+TEST(Help, AnswersToWordsOfTheWorkshop)
+{
+  std::set<std::string> paths;
+  for (const DeclaredTable &table : declared_tables())
+    paths.insert(table.path);
+  for (const Synonym &synonym : synonyms())
+    for (const std::string &path : synonym.tables)
+    {
+      EXPECT_EQ(paths.count(path), 1u) << synonym.word << ": " << path;
+      EXPECT_NE(help_text(synonym.word).find("  " + path + ' '), std::string::npos) << synonym.word << ": " << path;
+    }
+  for (const char *word : {"belt", "bearing", "ram", "gib", "spindle"})
+    EXPECT_NE(help_text(word), "");
+  gestell::tests::expect_refusal([] { help_text("spindel"); }, "spindle");
 }
 
 TEST(Help, FindsTablesAndKeysAndSuggestsNearOnes)

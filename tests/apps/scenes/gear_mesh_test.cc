@@ -126,6 +126,31 @@ TEST(GearMesh, AsAMeasureTakesASpring)
   EXPECT_NEAR(std::abs(motion.signal("w2").final), 0.5, 1e-3);
 }
 
+// The same gears with elastic teeth: Willis up to their deflection, F/c of some 1e-7 m on radii of 0.1 m.
+TEST(GearPair, OnAnArmFollowsItOverAnyNumberOfTurns)
+{
+  const auto teeth = [](const std::string &name, const std::string &from, const std::string &to, const Keys &radii)
+  {
+    Keys keys{{"from", from}, {"to", to}, {"axis", "[0, 0, 1]"}, {"stiffness", "100 kN/mm"}, {"damping", "2 kN s/m"}};
+    keys.insert(keys.end(), radii.begin(), radii.end());
+    return element(name, "gear pair", keys);
+  };
+  const std::string bodies = planetary.substr(0, planetary.find("[joint.inner]")),
+                    rest   = planetary.substr(planetary.find("[element.motor]"));
+  const SceneRun motion =
+      run(bodies + teeth("inner", "sun", "planet", {{"radius_from", "90 mm"}, {"radius_to", "120 mm"}}) +
+          teeth("outer", "planet", "ground",
+                {{"at_to", "[0, 0, 0]"}, {"radius_from", "120 mm"}, {"radius_to", "-330 mm"}}) +
+          rest);
+  EXPECT_GT(motion.signal("arm").final, 5. * M_PI);
+  for (std::size_t row = 0; row < motion.n_rows(); ++row)
+  {
+    const double arm = motion.at(row, 2);
+    ASSERT_NEAR(motion.at(row, 1), (1. + 66. / 18.) * arm, 1e-5);
+    ASSERT_NEAR(motion.at(row, 3), (1. - 66. / 24.) * arm, 1e-5);
+  }
+}
+
 TEST(GearMesh, RefusesWhatMakesNoSense)
 {
   EXPECT_EQ(test::complaint(planetary), "");

@@ -341,5 +341,38 @@ TEST(RigidBody, BadInputIsRefusedWithItsReason)
   expect_complaint(good + "[start]\nv = { \"top.rx\" = 1 }\n", "no coordinate");
 }
 
+// The other way to be out of balance: a planar body whose centre of mass lies beside its joint is a rotor of the
+// unbalance m e and of the inertia J + m e^2; both runs err by the square of their step.
+TEST(PlanarBody, BesideItsJointIsARotorOutOfBalance)
+{
+  const std::string block =
+      slider_body("block", "10", "[1, 0, 0]") +
+      element("spring", "spring-damper", {{"from", "block"}, {"stiffness", "40 N/mm"}, {"damping", "50 N s/m"}}) +
+      steps("20 us", "0.5 s");
+  const auto on = [](const std::string &text, const std::string &speed)
+  { return text + signals("x = 'block.displacement', w = '" + speed + "'"); };
+  const SceneRun rotor = run(on(
+                     block +
+                         rotor_body("wheel", "0.0202", "[0, 1, 0]",
+                                    {{"on", "block"}, {"mass", "2"}, {"unbalance", "20 g m"}}) +
+                         element("motor", "force",
+                                 {{"from", "wheel"}, {"to", "ground"}, {"about", "[0, 1, 0]"}, {"constant", "4 N m"}}),
+                     "wheel.speed")),
+                 body  = run(on(
+                      block + planar_body("wheel", "2", "0.02", "['10 mm', 0, 0]") +
+                          revolute("pin", "block", "wheel", "[0, 0, 0]") +
+                          element("motor", "force",
+                                  {{"from", "wheel"}, {"to", "ground"}, {"about", "[0, 1, 0]"}, {"constant", "4 N m"}}),
+                      "wheel.speed"));
+  EXPECT_GT(rotor.signal("x").max, 1e-3);
+  for (const char *name : {"x", "w"})
+  {
+    const double size = rotor.signal(name).max - rotor.signal(name).min;
+    EXPECT_NEAR(body.signal(name).max, rotor.signal(name).max, 1e-4 * size) << name;
+    EXPECT_NEAR(body.signal(name).min, rotor.signal(name).min, 1e-4 * size) << name;
+    EXPECT_NEAR(body.signal(name).final, rotor.signal(name).final, 1e-3 * size) << name;
+  }
+}
+
 } // namespace
 } // namespace gestell::tests

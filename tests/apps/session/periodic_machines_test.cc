@@ -15,14 +15,22 @@ namespace gestell::tests
 namespace
 {
 
-/// A motor that drives a wheel by a belt of ratio i, `more` on the wheel.
-std::string belt_drive(double i, const std::string &more = "", const std::string &run = "exact")
+/// A belt of ratio i as one spring.
+std::string spring_of_belt(double i)
 {
-  return rotor_body("motor", "0.02 kg m^2", "[0, 1, 0]") + rotor_body("wheel", "0.4 kg m^2", "[0, 1, 0]") +
-         measure("belt", "sum",
+  return measure("belt", "sum",
                  {{"terms",
                    "[{ of = 'motor', factor = '40 mm' }, { of = 'wheel', factor = '" + number(-0.04 * i) + " m' }]"}}) +
-         element("belt", "spring-damper", {{"on", "belt"}, {"stiffness", "50 N/mm"}, {"damping", "200 N s/m"}}) +
+         element("belt", "spring-damper", {{"on", "belt"}, {"stiffness", "50 N/mm"}, {"damping", "200 N s/m"}});
+}
+
+/// A motor that drives a wheel by a belt of ratio i, `more` on the wheel.
+std::string belt_drive(double i, const std::string &more = "", const std::string &run = "exact",
+                       const std::string &belt = "")
+{
+  return rotor_body("motor", "0.02 kg m^2", "[0, 1, 0]") +
+         rotor_body("wheel", "0.4 kg m^2", "[0, 1, 0]", {{"position", "['0.3 m', 0, 0]"}}) +
+         (belt.empty() ? spring_of_belt(i) : belt) +
          element("drive", "asynchronous motor",
                  {{"on", "motor"},
                   {"to", "ground"},
@@ -141,6 +149,45 @@ TEST(GearedRotors, ACrankBehindABeltHasTheExtremesToWhichARunSettles)
     const double             size   = signal.max - signal.min; // rows of 0.2 ms miss an extreme by a thousandth of it
     EXPECT_NEAR(signal.max, largest_of(motion, signal.name, 6.), 1e-3 * size) << signal.name;
     EXPECT_NEAR(signal.min, largest_of(motion, signal.name, 6., true), 1e-3 * size) << signal.name;
+  }
+}
+
+/// Both strands of a tight belt are together the spring; one that becomes slack has a stable steady state as well.
+TEST(GearedRotors, ABeltOfTwoStrandsHasTheSteadyStateOfItsSpring)
+{
+  const auto strands = [](const std::string &pretension)
+  {
+    return element("belt", "belt",
+                   {{"from", "motor"},
+                    {"to", "wheel"},
+                    {"at_from", "[0, 0, 0]"},
+                    {"at_to", "['0.3 m', 0, 0]"},
+                    {"axis", "[0, 1, 0]"},
+                    {"radius_from", "40 mm"},
+                    {"radius_to", "148 mm"},
+                    {"stiffness", "25 N/mm"},
+                    {"damping", "100 N s/m"},
+                    {"pretension", pretension}});
+  };
+  const auto with_strands = [&](const std::string &pretension)
+  {
+    const std::string text = belt_drive(3.7, crank, "exact", strands(pretension));
+    return test::with(text, "F = \"belt.force\"", "F = \"belt.hub_force\"");
+  };
+  const PeriodicResult spring = by("shooting", belt_drive(3.7, crank)), belt = by("shooting", with_strands("5 kN")),
+                       slack = by("shooting", with_strands("20 N"));
+  for (const PeriodicResult *result : {&spring, &belt, &slack})
+  {
+    ASSERT_EQ(result->entries.size(), 1u) << result->failure;
+    EXPECT_TRUE(result->entries[0].solution.stable());
+  }
+  const PeriodicEntry &a = spring.entries[0], &b = belt.entries[0];
+  EXPECT_NEAR(b.solution.period, a.solution.period, 1e-9 * a.solution.period);
+  for (const std::size_t k : {0u, 2u})
+  {
+    const double size = a.signals[k].max - a.signals[k].min;
+    EXPECT_NEAR(b.signals[k].max, a.signals[k].max, 1e-6 * size) << a.signals[k].name;
+    EXPECT_NEAR(b.signals[k].min, a.signals[k].min, 1e-6 * size) << a.signals[k].name;
   }
 }
 

@@ -1,0 +1,224 @@
+#include "apps/scene/elements/element_types.h"
+#include "apps/scene/read/checked.h"
+#include "apps/scene/read/read_wheels.h"
+#include "fem/values/number_text.h"
+#include "mechanism/elements/common_tangents.h"
+
+#include <cmath>
+#include <optional>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using mechanism::Belt;
+
+/// A belt or chain around two wheels, as described.
+struct Loop
+{
+  double from = 0., to = 0.; ///< radii [m]; `to` negative: crossed
+  double distance = 0.;      ///< of the centres [m]
+
+  double circles() const { return from - to; }
+  double strand() const { return std::sqrt(distance * distance - circles() * circles()); }
+  /// 2 l + pi (r_1 + |r_2|) + 2 gamma (r_1 - r_2),  sin(gamma) = (r_1 - r_2)/D
+  double path() const
+  {
+    return 2. * strand() + M_PI * (from + std::abs(to)) + 2. * std::asin(circles() / distance) * circles();
+  }
+};
+
+Loop loop_around(const SceneTable &table, double from, double to, double distance)
+{
+  if (!(from + std::abs(to) < distance))
+    throw table.error(
+        "wheels of radius " + short_text(from) + " m and " + short_text(std::abs(to)) +
+        " m do not fit beside each other: their centres are " + short_text(distance) +
+        " m apart, which must be more than the sum of the radii; correct 'at_from', 'at_to' or the radii");
+  return {from, to, distance};
+}
+
+/// Stiffness of one strand: given, or EA/l of its free length.
+double strand_stiffness(const SceneTable &table, const Loop &loop)
+{
+  if (table.has("stiffness") == table.has("rigidity"))
+    throw table.error("needs 'stiffness' of one strand or 'rigidity' E A, one of the two");
+  return table.has("stiffness") ? table.value("stiffness") : table.value("rigidity") / loop.strand();
+}
+
+/// Elongation of both strands [m] of a loop that has the length `length` without force.
+/// @param largest  strain that a loop may have
+double elongation_by(const SceneTable &table, const Loop &loop, double length, double largest)
+{
+  const double strain = (loop.path() - length) / length;
+  if (strain > largest)
+    throw table.error(
+        "is " + short_text(length, 6) + " m long, but its way around both wheels at a centre distance of " +
+        short_text(loop.distance, 6) + " m is " + short_text(loop.path(), 6) + " m: it would be stretched by " +
+        percent(strain) + ", at most " + percent(largest) + " makes sense; take it longer or move the wheels together");
+  return strain > 0. ? strain * loop.strand() : 0.5 * (loop.path() - length);
+}
+
+void add_loop(const SceneTable &table, Scene &scene, const WheelPair &wheels, const Loop &loop,
+              const std::optional<double> &length, double largest_strain)
+{
+  Belt::Parameters belt;
+  belt.stiffness = strand_stiffness(table, loop);
+  belt.damping   = table.value("damping");
+  belt.circles   = loop.circles();
+  belt.distance  = loop.distance;
+  belt.initial =
+      length ? elongation_by(table, loop, *length, largest_strain) : table.value_or("pretension", 0.) / belt.stiffness;
+  TangentsRequest strands;
+  strands.first  = loop.from;
+  strands.second = loop.to;
+  add_on_tangents(scene, table, checked(table, [&] { return std::make_shared<Belt>(belt); }), wheels, strands);
+}
+
+void read_belt(const SceneTable &table, const Names &names, Scene &scene)
+{
+  if (table.has("pretension") == table.has("length"))
+    throw table.error(
+        "needs 'pretension', the pull of both strands at rest, or 'length' of the belt without force, one "
+        "of the two");
+  const WheelPair wheels = read_wheels(table, names, "pulley");
+  const double    to     = table.value("radius_to");
+  // Belts that hold by their stretch alone are mounted with up to 5 %; beyond, E A is no constant.
+  add_loop(table, scene, wheels,
+           loop_around(table, table.value("radius_from"), table.truth("crossed") ? -to : to, wheels.distance),
+           table.has("length") ? std::optional(table.value("length")) : std::nullopt, 0.05);
+}
+
+/// Radius of the pitch circle, on which the pins lie: p/(2 sin(pi/z)).
+double sprocket(const SceneTable &table, const std::string &key)
+{
+  const int teeth = table.whole(key);
+  if (teeth < 5)
+    throw table.error(key, "is " + std::to_string(teeth) + "; a sprocket has at least 5 teeth");
+  return 0.5 * table.value("pitch") / std::sin(M_PI / teeth);
+}
+
+/// Length of the chain by its links.
+std::optional<double> read_links(const SceneTable &table)
+{
+  if (!table.has("links"))
+    return std::nullopt;
+  const int links = table.whole("links");
+  if (links < 1)
+    throw table.error("links", "is " + std::to_string(links) + "; a chain has at least as many as its way needs");
+  return links * table.value("pitch");
+}
+
+void read_chain(const SceneTable &table, const Names &names, Scene &scene)
+{
+  if (table.has("pretension") && table.has("links"))
+    throw table.error("has 'pretension' and 'links', which determines it; give one of them");
+  const WheelPair wheels = read_wheels(table, names, "sprocket");
+  // Steel yields before half a percent.
+  add_loop(table, scene, wheels,
+           loop_around(table, sprocket(table, "teeth_from"), sprocket(table, "teeth_to"), wheels.distance),
+           read_links(table), 0.005);
+}
+
+std::vector<Key> strand_keys()
+{
+  return {key::number("stiffness", kind::stiffness, "of one strand").above_zero().by_default("`rigidity`"),
+          key::number("rigidity", kind::force,
+                      "E A: a strand has the stiffness E A/l, l its free length in the initial configuration")
+              .above_zero()
+              .by_default("`stiffness`"),
+          key::number("damping", kind::damping, "of one strand while it is taut").from_zero().by_default(0.)};
+}
+
+constexpr const char *loop_signals =
+    "`left_force`, `right_force` of the strands; `hub_force` on either shaft, the size of their sum as vectors";
+
+} // namespace
+
+ElementType belt_type()
+{
+  return {"belt",
+          "A belt around two pulleys without slip: each strand is a spring that only pulls, from tangent point to "
+          "tangent point; events `left_slack`, `left_taut`, and with damping `left_relaxed` at its free length, the "
+          "same on the right.",
+          loop_signals,
+          joined({wheel_keys("pulley"),
+                  {key::number("radius_from", kind::length, "of the pulley on `from`, to the neutral line of the belt")
+                       .above_zero(),
+                   key::number("radius_to", kind::length, "the same on `to`").above_zero(),
+                   key::truth("crossed", false, "the strands cross, the pulleys turn in opposite senses")},
+                  strand_keys(),
+                  {key::number("pretension", kind::force, "pull of either strand in the initial configuration")
+                       .from_zero()
+                       .by_default("by `length`"),
+                   key::number("length", kind::length, "of the belt without force; longer than its way: it is slack")
+                       .above_zero()
+                       .by_default("by `pretension`")}}),
+          read_belt,
+          {R"toml(from        = "flywheel"
+to          = "crank"
+at_from     = [0, 0, 0]
+at_to       = ["0.6 m", 0, 0]
+axis        = [0, 1, 0]
+radius_from = "60 mm"
+radius_to   = "150 mm"
+rigidity    = "120 kN"
+damping     = "20 N s/m"
+pretension  = "400 N"
+)toml",
+           R"toml(from        = "flywheel"
+to          = "crank"
+at_from     = [0, 0, 0]
+at_to       = ["0.6 m", 0, 0]
+axis        = [0, 1, 0]
+radius_from = "60 mm"
+radius_to   = "150 mm"
+crossed     = true
+stiffness   = "200 N/mm"
+length      = "1.93 m"
+)toml"}};
+}
+
+ElementType chain_type()
+{
+  return {"chain",
+          "A chain around two sprockets: as a belt, by default without pretension, with the mean radius of its "
+          "sprockets.",
+          loop_signals,
+          joined({wheel_keys("sprocket"),
+                  {key::number("pitch", kind::length, "of the chain").above_zero(),
+                   key::plain("teeth_from", Key::Form::whole, "of the sprocket on `from`, 5 or more"),
+                   key::plain("teeth_to", Key::Form::whole, "of the sprocket on `to`, 5 or more")},
+                  strand_keys(),
+                  {key::number("pretension", kind::force, "pull of either strand in the initial configuration")
+                       .from_zero()
+                       .by_default("0, or by `links`"),
+                   key::plain("links", Key::Form::whole, "number of links, in place of `pretension`").by_default("")}}),
+          read_chain,
+          {R"toml(from       = "flywheel"
+to         = "crank"
+at_from    = [0, 0, 0]
+at_to      = ["0.6 m", 0, 0]
+axis       = [0, 1, 0]
+pitch      = "12.7 mm"
+teeth_from = 17
+teeth_to   = 38
+rigidity   = "2 MN"
+damping    = "50 N s/m"
+pretension = "50 N"
+)toml",
+           R"toml(from       = "flywheel"
+to         = "crank"
+at_from    = [0, 0, 0]
+at_to      = ["0.6 m", 0, 0]
+axis       = [0, 1, 0]
+pitch      = "12.7 mm"
+teeth_from = 17
+teeth_to   = 38
+stiffness  = "3 kN/mm"
+links      = 124
+)toml"}};
+}
+
+} // namespace gestell::apps
