@@ -25,9 +25,9 @@ constexpr double level   = 1e-4; ///< of the largest value: smaller changes by y
 const double none = std::numeric_limits<double>::quiet_NaN();
 } // namespace
 
-ExtremeDerivatives::ExtremeDerivatives(const RunResult &run, const std::vector<ParameterTwins> &twins, double near,
-                                       double length)
-    : twins_(twins), near_(near), length_(length)
+ExtremeDerivatives::ExtremeDerivatives(const RunResult &run, const std::vector<ParameterTwins> &twins, double begin,
+                                       double near, double length)
+    : twins_(twins), begin_(begin), near_(near), length_(length)
 {
   const double far = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < run.signals.size(); ++i)
@@ -76,10 +76,11 @@ void ExtremeDerivatives::leave_out(OutputDerivatives &output, const std::string 
   output.note = "no derivative: " + reason;
 }
 
-/// Whether the extreme is rounding. An exact zero is not: a force law can give it.
+/// Whether the extreme is rounding. An exact zero is not: a force law can give it. Nor is the start, whose derivative
+/// is known whatever rounding the start value has.
 bool ExtremeDerivatives::is_rounding(const Extreme &extreme) const
 {
-  return extreme.value != 0. && std::abs(extreme.value) <= rounding * sizes_[extreme.signal];
+  return extreme.t != begin_ && extreme.value != 0. && std::abs(extreme.value) <= rounding * sizes_[extreme.signal];
 }
 
 void ExtremeDerivatives::set(const Extreme &extreme, const VectorXd &of_value, const VectorXd &of_instant)
@@ -99,7 +100,7 @@ void ExtremeDerivatives::at_event(double t, const Told &reported, const VectorXd
     const double off = std::abs(reported.y[i] - extreme.value);
     if (std::abs(extreme.t - t) > near_ || is_rounding(extreme))
       continue;
-    if (extreme.value != 0. && std::abs(extreme.value) <= located * sizes_[extreme.signal])
+    if (extreme.t != begin_ && extreme.value != 0. && std::abs(extreme.value) <= located * sizes_[extreme.signal])
     {
       for (const bool instant : {false, true})
         leave_out(output(extreme, instant), "it is zero within the accuracy of its event");

@@ -25,8 +25,10 @@ namespace gestell::coupling
 class ExtremeDerivatives
 {
 public:
-  /// @param near  [s] instants closer than this coincide
-  ExtremeDerivatives(const RunResult &run, const std::vector<ParameterTwins> &twins, double near, double length);
+  /// @param begin  [s] of the run
+  /// @param near   [s] instants closer than this coincide
+  ExtremeDerivatives(const RunResult &run, const std::vector<ParameterTwins> &twins, double begin, double near,
+                     double length);
 
   /// Instants of extremes within a piece of the motion.
   std::set<double> instants(double begin, double end) const;
@@ -64,7 +66,7 @@ private:
   std::string        no_turn(const Extreme &extreme, const Turn &turn, double step) const;
 
   const std::vector<ParameterTwins> &twins_;
-  double                             near_, length_;
+  double                             begin_, near_, length_;
   std::vector<Extreme>               extremes_;
   std::vector<double>                sizes_; ///< largest |y| of each signal
   std::vector<OutputDerivatives>     outputs_;

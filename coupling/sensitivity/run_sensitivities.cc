@@ -99,7 +99,8 @@ Passage::Passage(const SensitivityProblem &problem)
       signals_(machine_, problem.signals, problem.twins, equation_),
       steps_(equation_, first_step(problem), tolerance_for(problem.options.method),
              order_of_steps(problem.options.method), problem.options.method.step),
-      extremes_(problem.run, problem.twins, same_time * length_of(problem.options), length_of(problem.options)),
+      extremes_(problem.run, problem.twins, problem.options.begin, same_time * length_of(problem.options),
+                length_of(problem.options)),
       growth_(machine_, equation_.mass_diagonal(), problem.trajectory, problem.twins),
       near_(same_time * length_of(problem.options))
 {
