@@ -24,17 +24,16 @@ MatrixXd PassageDerivative::monodromy(Index size, const Map &map)
     std::mt19937                     random(1); // the same in every call: a motion has one matrix
     std::normal_distribution<double> normal;
     VectorXd                         across = VectorXd::NullaryExpr(size, [&](Index) { return normal(random); });
-    across -= V_ * (V_.transpose() * across);
-    MatrixXd X(size, V_.cols() + 1);
+    MatrixXd                         X(size, V_.cols() + 1);
     X << V_, across.normalized();
-    const MatrixXd Y = map(X);
+    const auto [all, images] = map(X);
+    const MatrixXd D         = all.leftCols(V_.cols());
+    Phi                      = images.leftCols(V_.cols()) * lu_solution(D.transpose() * D, D.transpose());
     // A random direction has 1/sqrt(size) of each of the others.
-    condensed_ = Y.rightCols(1).norm() * std::sqrt(double(size)) <= 10. * left_out;
-    if (condensed_)
-      Phi = Y.leftCols(V_.cols()) * V_.transpose();
+    condensed_ = (images - Phi * all).rightCols(1).norm() * std::sqrt(double(size)) <= 10. * left_out;
   }
   if (!condensed_)
-    Phi = map(MatrixXd::Identity(size, size));
+    Phi = map(MatrixXd::Identity(size, size)).images;
   const SymmetricEigenSolver squares(Phi.transpose() * Phi);
   const Index                kept = (squares.eigenvalues().array() > left_out * left_out).count();
   V_                              = squares.eigenvectors().rightCols(kept);

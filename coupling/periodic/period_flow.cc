@@ -118,6 +118,7 @@ void PeriodFlow::start(const VectorXd &q, const VectorXd &v, double begin, doubl
     if (dq_begin_.size() == 0)
       carry_all();
     tangents_->begin_tangents(dq_begin_, dv_begin_);
+    tangents_->tangents(dq_start_, dv_start_);
   }
 }
 
@@ -164,14 +165,15 @@ const PeriodPassage &PeriodFlow::pass_condensed(const VectorXd &q, const VectorX
     pass(q, v, period, tangents);
     work.add({0, 1, passage_.work});
   };
-  MatrixXd monodromy = derivative_.monodromy(2 * n,
-                                             [&](MatrixXd X) -> MatrixXd
-                                             {
-                                               X.array().colwise() /= weights_.array();
-                                               carry(X.topRows(n), X.bottomRows(n));
-                                               passed(true);
-                                               return weights_.asDiagonal() * passage_.monodromy;
-                                             });
+  const auto images = [&](MatrixXd X) -> PassageDerivative::Images
+  {
+    X.array().colwise() /= weights_.array();
+    carry(X.topRows(n), X.bottomRows(n));
+    passed(true);
+    X << dq_start_, dv_start_;
+    return {weights_.asDiagonal() * X, weights_.asDiagonal() * passage_.monodromy};
+  };
+  MatrixXd monodromy = derivative_.monodromy(2 * n, images);
   carry({}, {});
   monodromy.array().colwise() /= weights_.array();
   monodromy.array().rowwise() *= weights_.transpose().array();

@@ -111,6 +111,7 @@ private:
   MotionTangents                         *tangents_ = nullptr; ///< of either
   PeriodPassage                           passage_;
   Eigen::MatrixXd                         dq_begin_, dv_begin_; ///< tangents; empty: all
+  Eigen::MatrixXd                         dq_start_, dv_start_; ///< what joints left of them
   bool                                    carries_ = false;
   bool                                    jumps_   = false;       ///< a transition is under way
   double                                  begin_ = 0., end_ = 0.; ///< of the passage [s]

@@ -191,7 +191,7 @@ TEST(GearedRotors, ABeltOfTwoStrandsHasTheSteadyStateOfItsSpring)
   }
 }
 
-/// An ideal gear instead of the belt: its joint tells the ratio; shooting takes differences of periods.
+/// An ideal gear instead of the belt: its joint tells the ratio; the variational equations accompany BDF.
 TEST(GearedRotors, AnIdealGearOfAnyRatioIsFoundInItsJoint)
 {
   const std::string text =
@@ -216,6 +216,48 @@ TEST(GearedRotors, AnIdealGearOfAnyRatioIsFoundInItsJoint)
       EXPECT_NEAR(entry.solution.largest_multiplier(), std::exp(of_speed * entry.solution.period), 1e-3);
     }
   }
+}
+
+/// A pendulum of three coordinates in its ideal pin, whose force turns with it, and the same of one angle: multipliers
+/// by the variational equations beside BDF are those of exact tangents, to the second order of the steps.
+TEST(IdealJoints, OfAPendulumHaveTheMultipliersOfItsAngle)
+{
+  const auto driven = [](const std::string &more, const std::string &run)
+  {
+    return "gravity = [0, 0, '-10 m/s^2']\n" + more +
+           element("drive", "force",
+                   {{"from", "bob"},
+                    {"to", "ground"},
+                    {"about", "[0, 1, 0]"},
+                    {"harmonics", "[{ amplitude = '3 N m', frequency = '0.8 Hz' }]"}}) +
+           test::quoted("[run]\n" + run + "\nend = '1 s'\n[output.signals]\nM = 'drive.torque'\n");
+  };
+  const std::string damper =
+      element("damper", "spring-damper",
+              {{"from", "bob"}, {"to", "ground"}, {"about", "[0, 1, 0]"}, {"damping", "0.2 N m s/rad"}});
+  const auto exact = by("shooting", driven(rotor_body("bob", "0.6 kg m^2", "[0, 1, 0]") +
+                                               element("weight", "formula force",
+                                                       {{"from", "bob"},
+                                                        {"to", "ground"},
+                                                        {"about", "[0, 1, 0]"},
+                                                        {"force", "-10 N*m*sin(u) - 0.2 N*m*s/rad*v"}}),
+                                           "method = 'exact'\ntolerance = 1e-10"));
+  ASSERT_EQ(exact.entries.size(), 1u) << exact.failure;
+  double off[2];
+  for (const int k : {0, 1})
+  {
+    const auto jointed = by("shooting", driven(planar_body("bob", "2 kg", "0.1 kg m^2", "[0, 0, '-0.5 m']") +
+                                                   revolute("pin", "bob", "ground", "[0, 0, 0]") + damper,
+                                               "method = 'bdf'\nstep = '" + std::to_string(4 >> k) + " ms'"));
+    ASSERT_EQ(jointed.entries.size(), 1u) << jointed.failure;
+    EXPECT_EQ(jointed.entries[0].solution.method, "shooting");
+    const auto &found = jointed.entries[0].solution.multipliers, &right = exact.entries[0].solution.multipliers;
+    off[k] = 0.;
+    for (const auto &mu : right)
+      off[k] = std::max(off[k], (found.array() - mu).abs().minCoeff());
+  }
+  EXPECT_LT(off[1], 1e-3);
+  EXPECT_NEAR(std::log2(off[0] / off[1]), 2., 0.3);
 }
 
 /// q of an interface whose row is that of -ux: the values by the names of coordinates are those of signals, and a
