@@ -424,6 +424,7 @@ class Size:
         self.proof = [{"output": name, "unit": self.errors[name]["unit"], **each} for name, each in size["proof"].items()]
         self.finer = size["finer"]  #: the model of the proof
         self.left_out, self.missing = size["left_out"], size["missing"]
+        self.skipped = size["skipped"]  #: models whose mesh or frame could not be made, and why
         self.unasked = size["unasked"]  #: questions that would have taken the search above ten runs of the chosen model
         self.cpu_s, self.runs = size["cost"]["cpu_s"], size["cost"]["runs"]  #: what the search took, in all and in runs of the chosen model
 

@@ -181,55 +181,77 @@ Comparison BudgetMaker::degree()
   return coarser_cells();
 }
 
-/// Mesh error from elements of degree three, or from a coarser mesh and extrapolated to this one.
+/// Mesh error from elements of degree three, or from a coarser mesh and extrapolated to this one; a mesh that cannot be
+/// made is left out.
 Comparison BudgetMaker::raised()
 {
-  ModelVariant variant          = finest_;
-  variant.modes                 = run_.modes;
+  ModelVariant level            = finest_;
+  level.modes                   = run_.modes;
   constexpr int coarsest_raised = 3; // powers of the ratio of sizes: 1.5^3 = 3.4 times as coarse
-  for (int k = 0; k <= coarsest_raised; ++k, variant.mesh *= ratio_of_meshes)
-  {
-    if (k > 0 && !mesh_can_change(scene_))
-      break;
-    const ModelAnswer first = k > 0 ? models_.of(variant) : models_.of(finest_);
-    // coordinates of a mesh that is compared with degree three, which has three times as many
-    constexpr int most_raised = 60000;
-    if (first.n_frame > most_raised)
-      continue;
-    const double ratio = std::cbrt(double(run_.n_frame) / first.n_frame);
-    if (k > 0)
-      finest_ = variant;
-    variant.raised = true;
-    if (modes_are_chosen(scene_)) // a frame may already be available
-      variant.made = std::max(more_modes(scene_, run_), more_than(finest_.made));
-    Comparison comparison = against(
-        variant, "elements of degree three" +
-                     (k > 0 ? " in cells of " + short_text(std::pow(ratio_of_meshes, k), 3) + " times the size" : ""));
-    constexpr double left_over = 1.25; // of what degree three corrects, docs/theory/mesh_error.md (4b)
-    comparison.factor          = left_over / std::pow(ratio, mesh_order);
-    return comparison;
-  }
+  std::string   skipped;
+  for (int k = 0; k <= coarsest_raised && (k == 0 || mesh_can_change(scene_)); ++k, level.mesh *= ratio_of_meshes)
+    try
+    {
+      const std::string size  = short_text(std::pow(ratio_of_meshes, k), 3) + " times the size";
+      const ModelAnswer first = k > 0 ? models_.of(level) : models_.of(finest_);
+      // coordinates of a mesh that is compared with degree three, which has three times as many
+      constexpr int most_raised = 60000;
+      if (first.n_frame > most_raised)
+        continue;
+      const double ratio = std::cbrt(double(run_.n_frame) / first.n_frame);
+      if (k > 0)
+        finest_ = level;
+      ModelVariant variant = level;
+      variant.raised       = true;
+      if (modes_are_chosen(scene_)) // a frame may already be available
+        variant.made = std::max(more_modes(scene_, run_), more_than(finest_.made));
+      Comparison comparison =
+          against(variant, "elements of degree three" + (k > 0 ? " in cells of " + size : "") + skipped);
+      constexpr double left_over = 1.25; // of what degree three corrects, docs/theory/mesh_error.md (4b)
+      comparison.factor          = left_over / std::pow(ratio, mesh_order);
+      return comparison;
+    }
+    catch (const FrameFailure &failure)
+    {
+      if (k == 0 || (stop_ && *stop_))
+        throw;
+      skipped += "; cells of " + short_text(std::pow(ratio_of_meshes, k), 3) +
+                 " times the size are left out: " + failure.what();
+    }
   return {};
 }
 
-/// Beside the finest model so far, which stays that.
+/// Beside the finest model so far, which stays that; the next size where a mesh cannot be made.
 Comparison BudgetMaker::coarser_cells()
 {
   if (!mesh_can_change(scene_))
     return not_known("the mesh comes from a file and cannot be made coarser");
   ModelVariant variant = finest_;
-  variant.mesh *= ratio_of_meshes;
   if (scene_.frame.source != FrameSource::parts) // the second reduction of parts stays unchanged
     variant.modes = modes_asked(scene_, run_);
   Comparison comparison;
-  comparison.first        = models_.of(finest_);
-  comparison.second       = models_.of(variant);
+  comparison.first       = models_.of(finest_);
+  constexpr int coarsest = 2; // powers of the ratio of sizes
+  std::string   skipped, size;
+  for (int k = 1; k <= coarsest && !comparison.second; ++k)
+    try
+    {
+      variant.mesh *= ratio_of_meshes;
+      size              = "cells of " + short_text(std::pow(ratio_of_meshes, k), 3) + " times the size";
+      comparison.second = models_.of(variant);
+    }
+    catch (const FrameFailure &failure)
+    {
+      if (k == coarsest || (stop_ && *stop_))
+        throw;
+      skipped = "; " + size + " are left out: " + failure.what();
+    }
   const double     ratio  = std::cbrt(double(run_.n_frame) / comparison.second->n_frame);
   constexpr double hardly = 1.1; // ratio of sizes below which two meshes are alike
   if (ratio < hardly)
-    return not_known("cells of 1.5 times the size give nearly the same mesh: small features decide its size");
+    return not_known(size + " give nearly the same mesh: small features decide its size");
   comparison.factor = 1. / (std::pow(ratio, mesh_order) - 1.);
-  comparison.reason = "against cells of 1.5 times the size";
+  comparison.reason = "against " + size + skipped;
   return comparison;
 }
 

@@ -200,8 +200,15 @@ PreparedMachine prepare(Scene &scene, const ModelVariant &variant, double &cpu)
     making.reduction.options.n_modes = variant.made;
   const bool            reduced = variant.raised || frame_path(scene) == FramePath::reduce;
   coupling::CachedFrame made;
-  if (reduced)
-    made = variant.raised ? raised_frame(making) : reduced_frame(making, {});
+  try
+  {
+    if (reduced)
+      made = variant.raised ? raised_frame(making) : reduced_frame(making, {});
+  }
+  catch (const std::invalid_argument &failure)
+  {
+    throw FrameFailure(failure.what());
+  }
   const double begin = fem::cpu_time();
   if (nested)
     made.frame = with_first_modes(std::move(made.frame), variant.modes);
@@ -286,7 +293,7 @@ const ModelAnswer &ModelAnswers::of(const ModelVariant &model)
   if (const auto found = known_.find(key); found != known_.end())
     return found->second;
   if (const auto found = failed_.find(key); found != failed_.end())
-    throw std::invalid_argument(found->second);
+    std::rethrow_exception(found->second);
   try
   {
     const ModelAnswer answer = answer_of(scene_, model, outputs_, stop_);
@@ -294,10 +301,10 @@ const ModelAnswer &ModelAnswers::of(const ModelVariant &model)
       throw coupling::ConvergenceFailure("interrupted");
     return known_[key] = answer;
   }
-  catch (const std::exception &failure)
+  catch (const std::exception &)
   {
     if (!stop_ || !*stop_)
-      failed_[key] = failure.what();
+      failed_[key] = std::current_exception();
     throw;
   }
 }

@@ -6,8 +6,10 @@
 #include "apps/sizing/output_name.h"
 
 #include <atomic>
+#include <exception>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -73,8 +75,16 @@ ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outpu
 /// A scene with the variant's mesh, number of modes and method.
 Scene varied(const Scene &scene, const ModelVariant &variant);
 
+/// The frame of a model cannot be made: its mesh, its memory, its reduction.
+class FrameFailure : public std::invalid_argument
+{
+public:
+  using std::invalid_argument::invalid_argument;
+};
+
 /// Runs it.
-/// @throws std::invalid_argument if the method cannot treat it; coupling::ConvergenceFailure if the run fails or is
+/// @throws FrameFailure; std::invalid_argument if the method cannot treat it; coupling::ConvergenceFailure if the run
+/// fails or is
 ///         interrupted
 ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std::vector<OutputName> &outputs,
                       const std::atomic<bool> *stop = nullptr);
@@ -99,12 +109,12 @@ public:
   KnownPlanes                   &planes() { return planes_; }
 
 private:
-  const Scene                       &scene_;
-  const std::vector<OutputName>     &outputs_;
-  const std::atomic<bool>           *stop_;
-  std::map<std::string, ModelAnswer> known_;
-  std::map<std::string, std::string> failed_; ///< with what was said
-  KnownPlanes                        planes_;
+  const Scene                              &scene_;
+  const std::vector<OutputName>            &outputs_;
+  const std::atomic<bool>                  *stop_;
+  std::map<std::string, ModelAnswer>        known_;
+  std::map<std::string, std::exception_ptr> failed_;
+  KnownPlanes                               planes_;
 };
 
 /// Integrates as exactly as the program can where `exact` treats the machine: order 8, tolerance 1e-10.

@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 namespace gestell::apps
 {
@@ -53,6 +54,10 @@ bool SizeModels::takes_exact(const SizePlace &place)
     answer_of(short_run, {}, outputs_, stop_);
     return true;
   }
+  catch (const FrameFailure &)
+  {
+    throw;
+  }
   catch (const std::exception &)
   {
     if (stop_ && *stop_)
@@ -82,10 +87,32 @@ ModelVariant SizeModels::variant_of(const SizePlace &place, double most_cells) c
   return variant;
 }
 
+bool SizeModels::skip(const SizePlace &place, const std::exception &failure)
+{
+  constexpr std::size_t most = 4; // models: that many do not fail for their size
+  skipped_.push_back("cells of " + short_text(place.mesh, 3) + " times the size: " + failure.what());
+  return skipped_.size() < most && dynamic_cast<const FrameFailure *>(&failure);
+}
+
 SizePlace SizeModels::coarse()
 {
   SizePlace place;
-  place.mesh                = mesh_can_change(scene_) ? coarsest_mesh : 1.;
+  place.mesh = mesh_can_change(scene_) ? coarsest_mesh : 1.;
+  for (constexpr double rounding = 1e-9;; place.mesh /= ratio_of_meshes)
+    try
+    {
+      return coarse_on(place);
+    }
+    catch (const FrameFailure &failure)
+    {
+      if (place.mesh <= 1. + rounding || (stop_ && *stop_))
+        throw;
+      skip(place, failure);
+    }
+}
+
+SizePlace SizeModels::coarse_on(SizePlace place)
+{
   constexpr int first_modes = 8; // the search adds and removes others
   place.modes               = modes_are_chosen(scene_) ? std::min(first_modes, most_modes()) : -1;
   constexpr double loosest  = 1e-3; // tolerance of `exact`: beyond it the largest step rules
@@ -260,6 +287,20 @@ std::vector<SizePlace> SizeModels::about(const SizePlace &chosen, const SizePlac
         if (m <= most_modes())
           places.push_back({chosen.cells, mesh, m, time});
   return places;
+}
+
+SizedPlace *best_of(std::deque<SizedPlace> &judged)
+{
+  SizedPlace *best    = nullptr;
+  const auto  smaller = [](const SizedPlace &a, const SizedPlace &b)
+  {
+    return std::make_tuple(a.point.coordinates, a.place.modes, a.model.run.cpu()) <
+           std::make_tuple(b.point.coordinates, b.place.modes, b.model.run.cpu());
+  };
+  for (SizedPlace &each : judged)
+    if (each.rung.share <= 1. && (!best || smaller(each, *best)))
+      best = &each;
+  return best;
 }
 
 } // namespace gestell::apps

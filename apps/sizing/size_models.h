@@ -4,6 +4,8 @@
 #include "apps/sizing/error_budget.h"
 #include "apps/sizing/size_laws.h"
 
+#include <deque>
+
 namespace gestell::apps
 {
 
@@ -48,8 +50,13 @@ public:
 
   /// The coarse model at the start: elements of 9/4 of the scene's size, 8 modes, `exact` to 1e-3.  If `exact` cannot
   /// treat the machine: eight of the scene's steps, or the largest multiple with which it can be integrated.
-  /// @throws std::invalid_argument if the scene gives no step to vary
+  /// Elements of 3/2 of the size, or of the size itself, if the frame of larger ones cannot be made.
+  /// @throws std::invalid_argument if the scene gives no step to vary; FrameFailure if no frame can be made
   SizePlace coarse();
+  /// Models that failed, each with the reason.
+  const std::vector<std::string> &skipped() const { return skipped_; }
+  /// Adds one.  @return whether the search may go on with other cells: no frame was made, of one of few models
+  bool skip(const SizePlace &place, const std::exception &failure);
 
   /// Whether the frames of the coarse model, once computed, can be used for this model.
   bool has_frames(const SizePlace &place) const
@@ -82,9 +89,10 @@ public:
   ModelAnswers &answers() { return models_; }
 
 private:
-  bool   takes_exact(const SizePlace &place);
-  void   take_shares(SizedPlace &judged) const;
-  Shares shares_of(const BudgetEntry &entry, double allowed) const;
+  SizePlace coarse_on(SizePlace place);
+  bool      takes_exact(const SizePlace &place);
+  void      take_shares(SizedPlace &judged) const;
+  Shares    shares_of(const BudgetEntry &entry, double allowed) const;
 
   const Scene                   &scene_;
   const std::vector<OutputName> &outputs_;
@@ -93,6 +101,10 @@ private:
   ModelAnswers                   models_;
   bool                           by_exact_ = true, judged_first_ = false;
   SizePlace                      first_; ///< the coarse model
+  std::vector<std::string>       skipped_;
 };
+
+/// The smallest model that keeps the tolerance; null: none.
+SizedPlace *best_of(std::deque<SizedPlace> &judged);
 
 } // namespace gestell::apps

@@ -43,7 +43,7 @@ private:
   void                     keep_few_modes(const SizedPlace &coarse);
   std::optional<MeshPoint> expected(SizePlace &place) const;
   void                     try_kind(double coordinates);
-  SizedPlace              *best();
+  SizedPlace              *best() { return best_of(judged_); }
   bool                     is_confirmed();
   bool                     is_known();
   bool                     is_worth(const SizePlace &place, double coordinates);
@@ -62,8 +62,9 @@ private:
   SizeModels                     models_;
   std::vector<Cells>             kinds_ = {Cells::given}, untried_; ///< of meshes
   std::deque<SizedPlace>         judged_;
-  SizePlace                      planned_; ///< modes and time of the next model
-  std::vector<Shares>            others_;  ///< shares of error expected with it
+  SizePlace                      planned_;                  ///< modes and time of the next model
+  std::vector<Shares>            others_;                   ///< shares of error expected with it
+  double                         coarsest_ = coarsest_mesh; ///< with a frame
   SizeResult                     result_;
 };
 
@@ -191,7 +192,7 @@ std::optional<MeshPoint> Search::expected(SizePlace &place) const
     if (points.empty())
       continue;
     const auto next =
-        mesh_can_change(scene_) ? coarsest_within(aim, points, others_, coarsest_mesh) : std::optional(points.front());
+        mesh_can_change(scene_) ? coarsest_within(aim, points, others_, coarsest_) : std::optional(points.front());
     if (!next || (fewest && next->coordinates > 0.95 * fewest->coordinates))
       continue;
     fewest      = next;
@@ -206,7 +207,7 @@ std::optional<MeshPoint> Search::expected(SizePlace &place) const
 void Search::try_kind(double coordinates)
 {
   SizePlace place = planned_;
-  place.mesh      = coarsest_mesh;
+  place.mesh      = coarsest_;
   place.cells     = untried_.back();
   untried_.pop_back();
   // Coordinates that a cell brings at least: a tetrahedron of a solid 4.1, a hexahedron of one layer 15.
@@ -226,21 +227,6 @@ void Search::try_kind(double coordinates)
     if (options_.stop && *options_.stop)
       throw;
   }
-}
-
-/// The smallest model so far that keeps the tolerance; null: none.
-SizedPlace *Search::best()
-{
-  SizedPlace *best    = nullptr;
-  const auto  smaller = [](const SizedPlace &a, const SizedPlace &b)
-  {
-    return std::make_tuple(a.point.coordinates, a.place.modes, a.model.run.cpu()) <
-           std::make_tuple(b.point.coordinates, b.place.modes, b.model.run.cpu());
-  };
-  for (SizedPlace &judged : judged_)
-    if (judged.rung.share <= 1. && (!best || smaller(judged, *best)))
-      best = &judged;
-  return best;
 }
 
 /// Whether the best model so far, if any, agrees with its answer on elements of 2/3 the size; otherwise the errors of
@@ -327,7 +313,8 @@ bool Search::may_cost(const SizePlace &place, const MeshPoint &next)
 
 void Search::search()
 {
-  const SizePlace    coarse = planned_  = models_.coarse();
+  const SizePlace coarse = planned_     = models_.coarse();
+  coarsest_                             = coarse.mesh;
   const ModelAnswer &answer             = models_.answers().of(models_.variant_of(coarse));
   constexpr double   models_of_a_budget = 4.; // models of about the same cost: sides, degree, modes, time
   forecast(answer.n_frame, answer.cpu(), models_of_a_budget);
@@ -361,9 +348,13 @@ void Search::search()
     }
     catch (const std::exception &failure)
     {
-      if ((options_.stop && *options_.stop) || place.cells == Cells::given)
+      const bool goes_on = models_.skip(place, failure);
+      if ((options_.stop && *options_.stop) || (place.cells == Cells::given && !goes_on))
         throw;
-      kinds_.erase(std::find(kinds_.begin(), kinds_.end(), place.cells));
+      if (place.cells == Cells::given)
+        coarsest_ = 0.9 * place.mesh; // a little finer
+      else
+        kinds_.erase(std::find(kinds_.begin(), kinds_.end(), place.cells));
     }
   }
 }
@@ -433,6 +424,7 @@ SizedModel Search::run()
     result_.proof.push_back({outputs_[i].text, finer.units[i], chosen.model.run.values[i], finer.values[i]});
   result_.finer     = chosen.model.what;
   result_.tolerance = options_.tolerance;
+  result_.skipped   = models_.skipped();
   question(chosen);
   result_.cpu_s = spent();
   if (options_.exhaustive)

@@ -8,9 +8,9 @@
 #include "fem/values/message_text.h"
 
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/hp/fe_collection.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -20,8 +20,6 @@ namespace gestell::fem
 
 namespace
 {
-
-using Cell = dealii::DoFHandler<3>::active_cell_iterator;
 
 void require_sound(const Mesh &mesh)
 {
@@ -60,41 +58,15 @@ std::shared_ptr<const Grid> grid_of(const Mesh &mesh)
   return grid;
 }
 
-/// Prisms must come first: FE_WedgeP of deal.II 9.4 knows which functions it shares; the others do not.
-void distribute(dealii::DoFHandler<3> &nodes, const Mesh &mesh)
-{
-  if (mesh.n_cells() == static_cast<int>(std::max({mesh.cells.size(), mesh.hexahedra.size(), mesh.prisms.size()})))
-    return nodes.distribute_dofs(finite_element(mesh.kind(0)));
-  for (const auto &cell : nodes.active_cell_iterators())
-  {
-    const CellKind kind = mesh.kind(cell->index());
-    cell->set_active_fe_index(kind == CellKind::prism ? 0 : kind == CellKind::tetrahedron ? 1 : 2);
-  }
-  nodes.distribute_dofs(dealii::hp::FECollection<3>(
-      finite_element(CellKind::prism), finite_element(CellKind::tetrahedron), finite_element(CellKind::hexahedron)));
-}
-
 int *nodes_of(QuadraticMesh &mesh, int cell)
 {
   return const_cast<int *>(mesh.nodes(cell));
 }
 
-/// On a face between a prism and a hexahedron, get_dof_indices() of deal.II 9.4 is right for the hexahedron only.
-void take_from_hexahedra(const Cell &cell, QuadraticMesh &mesh)
+int number_by_deal_ii(const Grid &grid, const Mesh &mesh, QuadraticMesh &result)
 {
-  constexpr int first_quad_face = 2, of_prism = 15, of_hexahedron = 20; // first middle nodes of faces
-  for (int face = first_quad_face; face < 5; ++face)
-    if (!cell->at_boundary(face) && mesh.kind(cell->neighbor(face)->index()) == CellKind::hexahedron)
-      nodes_of(mesh, cell->index())[of_prism + face - first_quad_face] =
-          mesh.nodes(cell->neighbor(face)->index())[of_hexahedron + cell->neighbor_of_neighbor(face)];
-}
-
-void read_numbers(const dealii::DoFHandler<3> &handler, const Mesh &mesh, QuadraticMesh &result)
-{
-  result.points.resize(handler.n_dofs());
-  result.cells.resize(mesh.cells.size());
-  result.hexahedra.resize(mesh.hexahedra.size());
-  result.prisms.resize(mesh.prisms.size());
+  dealii::DoFHandler<3> handler(grid.cells);
+  handler.distribute_dofs(finite_element(mesh.kind(0)));
   std::vector<dealii::types::global_dof_index> numbers;
   for (const auto &cell : handler.active_cell_iterators())
   {
@@ -102,10 +74,40 @@ void read_numbers(const dealii::DoFHandler<3> &handler, const Mesh &mesh, Quadra
     cell->get_dof_indices(numbers);
     std::copy(numbers.begin(), numbers.end(), nodes_of(result, cell->index()));
   }
-  if (!mesh.hexahedra.empty() && !mesh.prisms.empty())
-    for (const auto &cell : handler.active_cell_iterators())
-      if (mesh.kind(cell->index()) == CellKind::prism)
-        take_from_hexahedra(cell, result);
+  return static_cast<int>(handler.n_dofs());
+}
+
+/// By the corners of the mesh between which a node is.  With cells of several kinds the DoFHandler of deal.II 9.4 gives
+/// numbers of other nodes to some of them, on meshes whose cells are in no order.
+int number_by_corners(const Mesh &mesh, QuadraticMesh &result)
+{
+  std::map<std::vector<int>, int> number;
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+  {
+    const ReferenceCell &reference = reference_cell(mesh.kind(cell));
+    std::vector<int>     corner_of(reference.n_corners); // of the mesh, by node
+    for (int k = 0; k < reference.n_corners; ++k)
+      corner_of[reference.node_of_corner[k]] = mesh.corners(cell)[k];
+    for (int a = 0; a < reference.n_nodes; ++a)
+    {
+      std::vector<int> corners;
+      for (const int node : reference.between[a])
+        corners.push_back(corner_of[node]);
+      std::sort(corners.begin(), corners.end());
+      nodes_of(result, cell)[a] = number.try_emplace(corners, static_cast<int>(number.size())).first->second;
+    }
+  }
+  return static_cast<int>(number.size());
+}
+
+void number_nodes(const Grid &grid, const Mesh &mesh, QuadraticMesh &result)
+{
+  result.cells.resize(mesh.cells.size());
+  result.hexahedra.resize(mesh.hexahedra.size());
+  result.prisms.resize(mesh.prisms.size());
+  const std::size_t of_one_kind = std::max({mesh.cells.size(), mesh.hexahedra.size(), mesh.prisms.size()});
+  const bool        is_mixed    = mesh.n_cells() > static_cast<int>(of_one_kind);
+  result.points.resize(is_mixed ? number_by_corners(mesh, result) : number_by_deal_ii(grid, mesh, result));
 }
 
 /// Places nodes in the middle of their corners.
@@ -154,9 +156,9 @@ void bend_edges(const Mesh &mesh, QuadraticMesh &result)
 class OuterNodes
 {
 public:
-  OuterNodes(const dealii::DoFHandler<3> &handler, const QuadraticMesh &mesh) : mesh_(mesh)
+  OuterNodes(const Grid &grid, const QuadraticMesh &mesh) : mesh_(mesh)
   {
-    for (const auto &cell : handler.active_cell_iterators())
+    for (const auto &cell : grid.cells.active_cell_iterators())
       for (const unsigned int face : cell->face_indices())
         if (cell->at_boundary(face))
           add(cell->index(), reference_cell(mesh.kind(cell->index())).faces[face]);
@@ -249,15 +251,12 @@ QuadraticMesh quadratic_mesh(const Mesh &mesh)
 
   QuadraticMesh result;
   result.grid = grid_of(mesh);
-  dealii::DoFHandler<3> handler(result.grid->cells);
-  distribute(handler, mesh);
-
   result.node_of.assign(mesh.points.size(), -1);
-  read_numbers(handler, mesh, result);
+  number_nodes(*result.grid, mesh, result);
   place_nodes(mesh, result);
   if (!mesh.middles.empty())
     bend_edges(mesh, result);
-  number_skin(mesh, OuterNodes(handler, result), result);
+  number_skin(mesh, OuterNodes(*result.grid, result), result);
   return result;
 }
 

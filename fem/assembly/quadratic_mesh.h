@@ -69,8 +69,8 @@ inline Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 27> positions(const Quadra
 }
 
 /**
- * The nodes as deal.II's DoFHandler numbers them on the cells of a mesh: FE_SimplexP(2), FE_Q(2), FE_WedgeP(2), several
- * of them as an hp::FECollection.
+ * The nodes as deal.II's DoFHandler numbers them on the cells of a mesh: FE_SimplexP(2), FE_Q(2) or FE_WedgeP(2). Nodes
+ * of several kinds are numbered cell by cell.
  *
  * @throws std::invalid_argument for a mesh without cells, a cell without volume or inverted at a corner, or an outer
  * face that is not a face of a cell.

@@ -1,6 +1,7 @@
 #include "fem/mesh/flat_cells.h"
 
 #include "fem/mesh/cell_measures.h"
+#include "fem/mesh/gmsh_child.h"
 #include "fem/values/message_text.h"
 #include "fem/values/vector3.h"
 
@@ -12,6 +13,7 @@ namespace gestell::fem
 namespace
 {
 
+template <typename Failure>
 void require_thick(const Mesh &mesh, int cell, const std::string &head, const std::string &way_out)
 {
   const double     q        = cell_quality(mesh, cell);
@@ -22,19 +24,20 @@ void require_thick(const Mesh &mesh, int cell, const std::string &head, const st
   Vector3   centre{};
   for (int k = 0; k < n; ++k)
     centre = centre + (1. / n) * mesh.points[mesh.corners(cell)[k]];
-  throw std::invalid_argument(head + ": the mesh has a flat cell at " + text(centre) + " m (quality " + text(q) +
-                              ", needed " + text(flattest) + "); " + way_out);
+  throw Failure(head + ": the mesh has a flat cell at " + text(centre) + " m (quality " + text(q) + ", needed " +
+                text(flattest) + "); " + way_out);
 }
 
 } // namespace
 
 void require_thick_cells(const Mesh &mesh, bool meshed, const std::string &head)
 {
-  const std::string way_out =
-      meshed ? "its volume is nearly zero or negative: repair it in the program that made the mesh."
-             : "choose another mesh.size, or a smaller one on the surface there.";
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
-    require_thick(mesh, cell, head, way_out);
+    if (meshed)
+      require_thick<std::invalid_argument>(
+          mesh, cell, head, "its volume is nearly zero or negative: repair it in the program that made the mesh.");
+    else
+      require_thick<NotMeshed>(mesh, cell, head, "choose another mesh.size, or a smaller one on the surface there.");
 }
 
 } // namespace gestell::fem

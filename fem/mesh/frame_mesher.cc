@@ -261,12 +261,13 @@ bool sweep(MeshedModel &result, const FrameSpecification &specification, const M
   }
 }
 
-void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
-                   MissingSize missing, const ChildProgress &progress, const std::vector<SizePoint> &refined)
+void mesh_geometry(MeshedModel &result, const MeshAttempt &attempt, const GmshSession &session, MissingSize missing,
+                   const ChildProgress &progress, const std::vector<SizePoint> &refined)
 {
-  const bool  script_has_sizes = has_size_fields();
-  MeshOptions options          = prepare_geometry(result, specification, missing);
-  const auto  report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  const FrameSpecification &specification    = attempt.specification;
+  const bool                script_has_sizes = has_size_fields();
+  MeshOptions               options          = prepare_geometry(result, specification, missing);
+  const auto                report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
   if (options.plates == Plates::swept)
     report(mesh_phase::plates);
   if (sweep(result, specification, options))
@@ -277,11 +278,10 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   if (specification.mesh.size == 0.) // chosen for what is not swept
     options.size = result.size = size_for_cells(result.model, cells_by_default);
   gmsh::option::setNumber("Mesh.MeshSizeMax", options.size / result.model.unit);
-  std::optional<SizeField> field;
-  if (!refined.empty())
-    set_refined_sizes(field.emplace(refined, options.size), result.model.unit);
+  const auto field = refined.empty() ? std::nullopt : std::optional(SizeField(refined, options.size));
   report(mesh_phase::surfaces);
-  mesh_surfaces(result.model, result.selection, specification, session, {options, field, script_has_sizes});
+  mesh_surfaces(result.model, result.selection, specification, session,
+                {options, field, script_has_sizes, attempt.walls});
   report(mesh_phase::volumes);
   mesh_volumes(result.model, specification, session);
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
@@ -350,11 +350,12 @@ CadModel read_model(const FrameSpecification &specification, const GmshSession &
   return model;
 }
 
-MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, const ChildProgress &progress,
+MeshedModel mesh_model(const MeshAttempt &attempt, MissingSize missing, const ChildProgress &progress,
                        const std::vector<SizePoint> &refined = {})
 {
-  const GmshSession session;
-  MeshedModel       result;
+  const FrameSpecification &specification = attempt.specification;
+  const GmshSession         session;
+  MeshedModel               result;
   if (progress)
     progress(mesh_phase::reading, -1.);
   const auto work = [&]
@@ -363,7 +364,7 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
     if (result.model.meshed)
       read_mesh(result, specification);
     else
-      mesh_geometry(result, specification, session, missing, progress, refined);
+      mesh_geometry(result, attempt, session, missing, progress, refined);
     require_thick_cells(result.extracted.mesh, result.model.meshed, head_of(specification));
     name_surfaces(result, specification);
     Mesh &mesh = result.extracted.mesh;
@@ -392,10 +393,9 @@ GeometryReport report_of(const MeshedModel &meshed)
 
 } // namespace
 
-Mesh mesh_of_frame(const FrameSpecification &specification, const ChildProgress &progress,
-                   const std::vector<SizePoint> &refined)
+Mesh mesh_of_frame(const MeshAttempt &attempt, const ChildProgress &progress, const std::vector<SizePoint> &refined)
 {
-  return mesh_model(specification, MissingSize::refused, progress, refined).extracted.mesh;
+  return mesh_model(attempt, MissingSize::refused, progress, refined).extracted.mesh;
 }
 
 GeometryReport inspection_of_frame(const FrameSpecification &specification)
@@ -421,9 +421,9 @@ GeometryReport inspection_of_frame(const FrameSpecification &specification)
   return report;
 }
 
-GeometryReport report_of_frame(const FrameSpecification &specification, const ChildProgress &progress)
+GeometryReport report_of_frame(const MeshAttempt &attempt, const ChildProgress &progress)
 {
-  MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, progress);
+  MeshedModel    meshed = mesh_model(attempt, MissingSize::chosen, progress);
   const Mesh    &mesh   = meshed.extracted.mesh;
   GeometryReport report = report_of(meshed);
   report.notes          = mesh.notes;

@@ -90,7 +90,7 @@ int add_field(const std::vector<double> &curves, int n_points, double s, double 
 } // namespace
 
 WantedSize::WantedSize(const CadModel &model, const MeshOptions &options, const Selection &selection,
-                       const std::optional<SizeField> &refined)
+                       const std::optional<SizeField> &refined, const FaceSizes &walls)
     : size_(options.size), refined_(refined)
 {
   const auto sizes = resolve_surface_sizes(options, selection);
@@ -99,6 +99,8 @@ WantedSize::WantedSize(const CadModel &model, const MeshOptions &options, const 
     for (const auto &[name, size] : sizes)
       if (const auto &tags = selection.at(name); std::find(tags.begin(), tags.end(), face.tag) != tags.end())
         surfaces_.push_back({face.min, face.max, size});
+    if (const auto wall = walls.find(face.tag); wall != walls.end())
+      surfaces_.push_back({face.min, face.max, model.unit * wall->second});
     if (face.kind == FaceKind::cylinder)
       bores_.push_back({face.min, face.max, two_pi * face.radius / elements_around_circle});
   }

@@ -13,14 +13,15 @@ namespace gestell::fem
 {
 
 /**
- * Target element sizes of a frame, without those derived by gmsh from the edges of a face: named surfaces and bores
- * have their own size, which grows with the distance up to mesh.size; sizes of a refinement are included.
+ * Target element sizes of a frame, without those derived by gmsh from the edges of a face: named surfaces, faces of
+ * thin walls and bores have their own size, which grows with the distance up to mesh.size; sizes of a refinement are
+ * included.
  */
 class WantedSize
 {
 public:
   WantedSize(const CadModel &model, const MeshOptions &options, const Selection &selection,
-             const std::optional<SizeField> &refined);
+             const std::optional<SizeField> &refined, const FaceSizes &walls = {});
 
   double operator()(const Vector3 &x) const;    ///< [m]
   double without_bores(const Vector3 &x) const; ///< [m]

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -176,13 +177,29 @@ void set_smallest_as_background(const std::vector<double> &fields)
   gmsh::model::mesh::field::setAsBackgroundMesh(smallest);
 }
 
-void set_refined_sizes(const SizeField &field, double unit)
+void set_local_sizes(const std::optional<SizeField> &refined, const FaceSizes &faces, double unit)
 {
+  if (!refined && faces.empty())
+    return;
+  FaceSizes curves;
+  for (const auto &[face, size] : faces)
+  {
+    gmsh::vectorpair boundary;
+    gmsh::model::getBoundary({{2, face}}, boundary, false, false, false);
+    for (const auto &[dim, curve] : boundary)
+      if (const auto [entry, is_new] = curves.try_emplace(curve, size); !is_new)
+        entry->second = std::min(entry->second, size);
+  }
   // From gmsh 4.9 on the callback gets the minimum of all other sizes and replaces them; in earlier versions the
   // minimum of all sizes, including the callback's, is used.
   gmsh::model::mesh::setSizeCallback(
-      [field, unit](int, int, double x, double y, double z, auto... so_far) {
-        return std::min({field({unit * x, unit * y, unit * z}) / unit, so_far...});
+      [refined, faces, curves, unit](int dim, int tag, double x, double y, double z, auto... so_far)
+      {
+        constexpr double none  = std::numeric_limits<double>::max();
+        const FaceSizes &sizes = dim == 2 ? faces : curves;
+        const auto       size  = dim == 1 || dim == 2 ? sizes.find(tag) : sizes.end();
+        return std::min({refined ? (*refined)({unit * x, unit * y, unit * z}) / unit : none,
+                         size != sizes.end() ? size->second : none, so_far...});
       });
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "fem/geometry/cad_model.h"
+#include "fem/mesh/curved_walls.h"
 #include "fem/mesh/size_field.h"
 #include "fem/values/frame_specification.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,9 +49,9 @@ std::map<std::string, double> resolve_surface_sizes(const MeshOptions &options, 
  */
 void set_mesh_sizes(const CadModel &model, const MeshOptions &options, const Selection &selection);
 
-/// Sets the sizes of a refined mesh in gmsh, used where they are smaller than the earlier ones.
+/// Sets sizes of a refined mesh and of faces with their curves in gmsh, used where they are smaller than the others.
 /// @param unit  length of gmsh's unit [m]
-void set_refined_sizes(const SizeField &field, double unit);
+void set_local_sizes(const std::optional<SizeField> &refined, const FaceSizes &faces, double unit);
 
 /// Creates gmsh's fields for the sizes on named surfaces.
 std::vector<double> surface_size_fields(const CadModel &model, const MeshOptions &options, const Selection &selection);

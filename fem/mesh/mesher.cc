@@ -65,16 +65,14 @@ void exchange(Archive &archive, GeometryReport &report)
 Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress,
                const std::vector<SizePoint> &refined)
 {
-  return in_gmsh_child<Mesh>(source_of(specification), mesh_phase::reading, progress,
-                             [&](const ChildProgress &on_progress)
-                             { return mesh_of_frame(specification, on_progress, refined); });
+  return meshed_in_child<Mesh>(specification, progress,
+                               [&](const MeshAttempt &attempt, const ChildProgress &on_progress)
+                               { return mesh_of_frame(attempt, on_progress, refined); });
 }
 
 GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress)
 {
-  return in_gmsh_child<GeometryReport>(source_of(specification), mesh_phase::reading, progress,
-                                       [&](const ChildProgress &on_progress)
-                                       { return report_of_frame(specification, on_progress); });
+  return meshed_in_child<GeometryReport>(specification, progress, report_of_frame);
 }
 
 GeometryReport inspect_geometry(const FrameSpecification &specification)

@@ -2,6 +2,7 @@
 
 #include "fem/geometry/cad_model.h"
 #include "fem/geometry/gmsh_session.h"
+#include "fem/mesh/gmsh_child.h"
 #include "fem/mesh/mesh_size.h"
 #include "fem/mesh/size_field.h"
 #include "fem/values/frame_specification.h"
@@ -26,10 +27,12 @@ struct SurfaceSizes
   MeshOptions              options;
   std::optional<SizeField> refined;                  ///< of a refinement
   bool                     script_has_sizes = false; ///< sizes drawn by a script
+  WallSizes                walls            = WallSizes::where_needed;
 };
 
-/// Meshes the surfaces; again with sizes that grow from short edges if those give far more triangles than intended.
-/// @throws std::invalid_argument if gmsh fails, or if the triangles indicate too many cells
+/// Meshes the surfaces; again with sizes of faces whose triangles cut through walls, see faces_that_cut_walls(), and
+/// with sizes that grow from short edges if those give far more triangles than intended.
+/// @throws NotMeshed if gmsh fails, std::invalid_argument if the triangles indicate too many cells
 void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpecification &specification,
                    const GmshSession &session, const SurfaceSizes &sizes);
 
@@ -39,10 +42,11 @@ using VolumeMesher = std::function<void()>;
 /**
  * Meshes volumes with Delaunay, because gmsh's HXT numbers points by their memory address, so that every run would give
  * a different mesh.  If Delaunay fails, the surfaces are meshed by gmsh's Delaunay method as well, in place of its
- * frontal one; HXT is the last attempt.  Both put a note into the model.
+ * frontal one; HXT is the last attempt. An attempt that leaves a solid without cells has failed.  Both put a note into
+ * the model.
  *
  * @param delaunay  the first and second attempt; empty: that of gmsh.
- * @throws std::invalid_argument if all fail
+ * @throws NotMeshed if all fail, with the solids that fail by themselves
  */
 void mesh_volumes(CadModel &model, const FrameSpecification &specification, const GmshSession &session,
                   const VolumeMesher &delaunay = {});

@@ -209,6 +209,8 @@ public:
       throw std::invalid_argument(task_.head + ": " + out_of_memory());
     if (reads() && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
       throw std::invalid_argument(task_.head + ": " + never_ends());
+    if (!reads() && WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL) // killed: by a user, or for its memory
+      throw ChildFault(task_.head + ": " + how_it_died(status));
     throw std::invalid_argument(task_.head + ": " + how_it_died(status));
   }
 

@@ -4,6 +4,7 @@
 #include "fem/process/reading_limits.h"
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 namespace gestell::fem
@@ -24,6 +25,13 @@ struct ChildTask
   std::string   way_out = "the file is probably damaged: export the model again, or in another format"; ///< remedy
 };
 
+/// A fault ended the child after its first phase, such as a segmentation fault.
+class ChildFault : public std::invalid_argument
+{
+public:
+  using std::invalid_argument::invalid_argument;
+};
+
 /// Whether the environment variable GESTELL_ONE_PROCESS is set (not to 0): for debuggers and limited process counts.
 bool in_one_process();
 
@@ -39,7 +47,8 @@ bool in_one_process();
  * @return          the result of `work`
  * @throws the exceptions of `work`: std::invalid_argument, std::bad_alloc, and for all others std::runtime_error with
  * their message.
- * @throws std::invalid_argument with cause and remedy if the child dies, or its first phase exceeds its limits.
+ * @throws std::invalid_argument with cause and remedy if the child dies, or its first phase exceeds its limits;
+ * ChildFault for a fault after its first phase.
  */
 std::string bytes_from_child(const ChildTask &task, const ChildProgress &progress,
                              const std::function<std::string(const ChildProgress &)> &work);

@@ -117,6 +117,8 @@ std::string size_text(const SizeResult &size)
     else
       text << "none stays within the tolerance against the finer one; size_all.csv\n";
   }
+  for (const std::string &what : size.skipped)
+    text << "not computed: " << what << '\n';
   for (const std::string &what : size.left_out)
     text << "may be left out: " << what << '\n';
   for (const std::string &what : size.missing)

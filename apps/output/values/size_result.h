@@ -56,6 +56,7 @@ struct SizeResult
   std::vector<SizeProof>   proof;          ///< chosen model against one that is finer in everything
   std::string              finer;          ///< description of the finer model
   std::vector<std::string> left_out, missing;
+  std::vector<std::string> skipped;    ///< models without a frame, each with the reason
   std::vector<std::string> unasked;    ///< omissions and additions not tested because of their cost
   SizeForecast             forecast;   ///< the latest one
   double                   cpu_s = 0.; ///< of the whole search
@@ -136,6 +137,7 @@ void describe(Visitor &v, const SizeResult &x)
   v("finer", x.finer, "", "that model");
   v("left_out", x.left_out, "", "what the scene could do without");
   v("missing", x.missing, "", "what it may lack");
+  v("skipped", x.skipped, "", "models whose mesh or frame could not be made, and why");
   v("unasked", x.unasked, "", "questions that would have cost too much");
   v("cost",
     std::vector<std::pair<std::string, double>>{

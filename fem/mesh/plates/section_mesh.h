@@ -19,7 +19,7 @@ struct SectionMesh
  * Meshes the area between an outline and holes; each side is one side of a cell.  gmsh meshes between every second
  * point with quadrilaterals and triangles, in a separate model.  These are divided into four or three cells about their
  * centres, and the omitted points of the outline are moved to their given positions.  The result contains only
- * quadrilaterals, because deal.II 9.4 writes out of bounds when it numbers mixed meshes of hexahedra and prisms.
+ * quadrilaterals, so that the plate consists of hexahedra alone.
  *
  * @param outline  an even number of points around it, with corners of the area at even indices [m]; the same applies to
  *   holes

@@ -127,5 +127,19 @@ BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2, 3}; Delete; };
   EXPECT_EQ(model.result.ladder.at(model.result.chosen).cells, "swept");
 }
 
+/// Cells of 9/4 of 140 mm are larger than the bar.
+TEST_F(FrameSize, GoesOnWithoutAMeshThatCannotBeMade)
+{
+  test::SceneFolder folder;
+  SizeOptions       options;
+  options.tolerance      = 0.3;
+  const Scene      scene = eye_bar(folder, "size = '140 mm'");
+  const SizedModel model = size_search(scene, budget_outputs(scene, "modes.1"), options);
+  ASSERT_EQ(model.result.skipped.size(), 1u);
+  EXPECT_THAT(model.result.skipped[0], ::testing::AllOf(::testing::HasSubstr("2.25 times the size"),
+                                                        ::testing::HasSubstr("is larger than the model")));
+  EXPECT_NEAR(model.result.ladder.front().mesh_size, 0.21, 1e-12);
+}
+
 } // namespace
 } // namespace gestell::tests

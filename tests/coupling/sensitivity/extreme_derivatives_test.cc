@@ -31,7 +31,7 @@ protected:
   {
     RunResult run;
     run.signals = {{"y", "N", smallest, 0.2, largest, 0.6, 0.}};
-    return ExtremeDerivatives(run, twins_, near, length);
+    return ExtremeDerivatives(run, twins_, 0., near, length);
   }
   Told reported(double y, double dy) const { return {VectorXd::Constant(1, y), MatrixXd::Constant(1, 1, dy)}; }
   /// @param off  error of the second derivative

@@ -5,10 +5,12 @@
 #include "fem/assembly/reference_cell.h"
 #include "fem/assembly/rigid_motions.h"
 #include "fem/mesh/cell_measures.h"
+#include "fem/mesh/mesher.h"
 #include "fem/recovery/discretisation.h"
 #include "fem/values/vector3.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
+#include "tests/support/cad_samples.h"
 #include "tests/support/lowest_modes.h"
 #include "tests/support/statics.h"
 #include "tests/support/test.h"
@@ -309,6 +311,50 @@ TEST(MixedMeshes, OfCellsThatFoldAreRefused)
     mesh.points[7] = {-1., -1., -1.};
     expect_refusal([&] { fem::quadratic_mesh(mesh); }, "folds");
   }
+}
+
+/// A plate of hexahedra, with prisms around and under a boss of tetrahedra, in the order of gmsh.
+fem::Mesh plate_with_boss()
+{
+  const std::string script = fem::test::write_text("boss.geo", R"(SetFactory("OpenCASCADE");
+Rectangle(1) = {-0.3, -0.2, 0, 0.6, 0.4}; Rectangle(2) = {0, -0.05, 0, 0.2, 0.2}; Disk(3) = {0.1, 0.05, 0, 0.055};
+all() = BooleanFragments{ Surface{1}; Delete; }{ Surface{2, 3}; Delete; };
+plate() = Surface In BoundingBox{-0.4, -0.3, -0.01, 0.4, 0.3, 0.01};
+inner() = Surface In BoundingBox{-0.01, -0.06, -0.01, 0.21, 0.16, 0.01};
+plate() -= inner();
+Recombine Surface{plate()};
+Extrude {0, 0, 0.015} { Surface{all()}; Layers{1}; Recombine; }
+disc() = Surface In BoundingBox{0.04, -0.01, 0.014, 0.16, 0.11, 0.016};
+Extrude {0, 0, 0.08} { Surface{disc()}; }
+Mesh.MeshSizeMax = 0.06;
+Mesh 3;
+)");
+  return fem::make_mesh(fem::test::specification(script, 0.06));
+}
+
+TEST(MixedMeshes, OfGmshHaveOneNodeAtEachPlaceOfTheirCells)
+{
+  const fem::Mesh mesh = plate_with_boss();
+  ASSERT_TRUE(!mesh.cells.empty() && !mesh.hexahedra.empty() && !mesh.prisms.empty());
+  const fem::QuadraticMesh      quadratic = fem::quadratic_mesh(mesh);
+  std::set<int>                 used;
+  std::set<std::array<long, 3>> places; // in micrometres
+  for (int cell = 0; cell < quadratic.n_cells(); ++cell)
+  {
+    const fem::ReferenceCell &reference = fem::reference_cell(quadratic.kind(cell));
+    for (int a = 0; a < reference.n_nodes; ++a)
+    {
+      fem::Vector3 middle{};
+      for (const int corner : reference.between[a])
+        middle = middle + 1. / double(reference.between[a].size()) * quadratic.points[quadratic.nodes(cell)[corner]];
+      ASSERT_NEAR(fem::norm(middle - quadratic.points[quadratic.nodes(cell)[a]]), 0., 1e-12) << "cell " << cell;
+      used.insert(quadratic.nodes(cell)[a]);
+    }
+  }
+  for (const auto &[x, y, z] : quadratic.points)
+    places.insert({std::lround(1e6 * x), std::lround(1e6 * y), std::lround(1e6 * z)});
+  EXPECT_EQ(int(used.size()), quadratic.n_nodes());
+  EXPECT_EQ(int(places.size()), quadratic.n_nodes());
 }
 
 } // namespace
