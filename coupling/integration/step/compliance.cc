@@ -18,7 +18,7 @@ LoadedCoordinates::LoadedCoordinates(const Eigen::SparseMatrix<double> &W) : W_(
       place[std::size_t(i)] = int(coordinates_.size());
       coordinates_.push_back(i);
     }
-  constexpr double per_index = 2.; // time of a multiplication with an index against one in a dense column
+  constexpr double per_index = 6.; // time of a multiplication with an index against one in a vector instruction
   const double     n_u = double(W.cols()), n_N = double(coordinates_.size());
   are_measures_ = n_u * n_u <= n_N * n_N + 2. * per_index * double(W.nonZeros());
   for (int j = 0; j < W.outerSize(); ++j)

@@ -30,6 +30,8 @@ void CondensedMatrix::Block::gather(const double *x, double *own) const
 
 namespace
 {
+constexpr int few = 3; ///< measures of an element that are used as they are
+
 double product(const double *a, const double *b, int n)
 {
   using Numbers = Eigen::Map<const Eigen::VectorXd>;
@@ -56,6 +58,7 @@ CondensedMatrix::CondensedMatrix(const SecondOrderSystem &system, const LoadedCo
   }
   for (const Block &block : joint_blocks_)
     most = std::max(most, block.places.size());
+  plain_         = loaded.are_measures() && equations_.empty() && largest <= std::size_t(few);
   const auto n_u = system.forces().directions().cols();
   const auto n_c = equations_.size();
   scalars_.reserve(n_F);
@@ -269,6 +272,8 @@ void CondensedMatrix::collect_measures(const Compliance &S, const Block &block, 
     std::copy_n(column, k, scalar.b);
     if (sticks)
       scalar.b[j] = 1. / own_compliance(S, measure);
+    if (plain_)
+      continue;
     block.to_places(scalar.l, scalar.l_q);
     block.to_places(scalar.b, scalar.b_q);
   }
@@ -276,7 +281,6 @@ void CondensedMatrix::collect_measures(const Compliance &S, const Block &block, 
 
 void CondensedMatrix::collect(const Compliance &S, const double *tangent, const std::vector<HeldMeasure> &held)
 {
-  constexpr int few = 3; // measures of an element that are used as they are
   scalars_.clear();
   all_seen_ = true;
   for (const Block &block : force_blocks_)
@@ -305,6 +309,28 @@ void CondensedMatrix::fill_forces(const Compliance &S)
     multiply(scalars_.data(), n, moved_.data(), moved, J, nullptr);
     for (int a = 0; a < n; ++a)
       J[a] = -J[a];
+    if (!column.held)
+      J[c] += 1.;
+  }
+}
+
+/// The same where scalars are measures.
+void CondensedMatrix::fill_plain(const Compliance &S)
+{
+  const int              n     = n_scalars();
+  const Eigen::MatrixXd &whole = S.matrix();
+  double                *J     = forces_.use(n);
+  for (int c = 0; c < n; ++c, J += n)
+  {
+    const Scalar &column = scalars_[std::size_t(c)];
+    std::fill_n(J, n, 0.);
+    for (int j = 0; j < column.block->n_measures; ++j)
+      if (const double b = column.b[j]; b != 0.)
+      {
+        const double *moved = whole.data() + whole.rows() * (column.block->first_measure + j);
+        for (int a = 0; a < n; ++a)
+          J[a] -= b * moved[scalars_[std::size_t(a)].measure];
+      }
     if (!column.held)
       J[c] += 1.;
   }
@@ -340,7 +366,10 @@ bool CondensedMatrix::factorise_forces(const Compliance &S, const Eigen::VectorX
 {
   kept_S_ = nullptr;
   collect(S, tangent.data(), held);
-  fill_forces(S);
+  if (plain_)
+    fill_plain(S);
+  else
+    fill_forces(S);
   if (!forces_.factorise(!held.empty()))
     return false;
   kept_S_       = &S;

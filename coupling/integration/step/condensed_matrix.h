@@ -94,6 +94,7 @@ private:
   bool keeps_forces(const Compliance &S, const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held) const;
   bool factorise_forces(const Compliance &S, const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held);
   void fill_forces(const Compliance &S);
+  void fill_plain(const Compliance &S);
   void border();
   void add_motion(const Compliance &S, const ConstraintJacobian &G, const Eigen::VectorXd &dlambda, Eigen::VectorXd &r);
 
@@ -107,16 +108,18 @@ private:
   SmallLu                        forces_;      ///< J
   Eigen::MatrixXd                S_G_;         ///< [n_N x n_c] C of the columns G^T
   std::vector<Compliance::Range> S_G_rows_;
-  Eigen::MatrixXd                G_S_G_;               ///< [n_c x n_c]
-  std::vector<double>            X_, P_;               ///< J^-1 P_L, P_B [n_y x n_c]
-  SmallLu                        joints_;              ///< H
-  Eigen::VectorXd                y_, p_;               ///< [n_y], [n_u]
-  bool                           all_seen_     = true; ///< every measure of forces is a scalar: delta follows without S
-  int                            failed_joint_ = -1;
-  const Compliance              *kept_S_       = nullptr; ///< of J; null: there is none
-  Eigen::VectorXd                kept_tangent_;           ///< of J
-  std::vector<int>               kept_held_;              ///< sticking measures of J
-  bool                           joints_known_ = false;   ///< H belongs to J and G
+  Eigen::MatrixXd                G_S_G_;           ///< [n_c x n_c]
+  std::vector<double>            X_, P_;           ///< J^-1 P_L, P_B [n_y x n_c]
+  SmallLu                        joints_;          ///< H
+  Eigen::VectorXd                y_, p_;           ///< [n_y], [n_u]
+  bool                           all_seen_ = true; ///< every measure of forces is a scalar: delta follows without S
+  bool                           plain_ =
+      false; ///< measures are the places and the scalars, and there are no joints: numbers on places are unused
+  int               failed_joint_ = -1;
+  const Compliance *kept_S_       = nullptr; ///< of J; null: there is none
+  Eigen::VectorXd   kept_tangent_;           ///< of J
+  std::vector<int>  kept_held_;              ///< sticking measures of J
+  bool              joints_known_ = false;   ///< H belongs to J and G
 };
 
 } // namespace gestell::coupling
