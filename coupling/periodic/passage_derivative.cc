@@ -21,17 +21,19 @@ MatrixXd PassageDerivative::monodromy(Index size, const Map &map)
   condensed_ = V_.size() > 0 && V_.cols() < size;
   if (condensed_)
   {
-    std::mt19937                     random(1); // the same in every call: a motion has one matrix
+    // Of a missing motion a random direction shows 1/sqrt(size), or little by chance: several, others in every call.
+    constexpr Index                  several = 3;
+    std::mt19937                     random(calls_);
     std::normal_distribution<double> normal;
-    VectorXd                         across = VectorXd::NullaryExpr(size, [&](Index) { return normal(random); });
-    MatrixXd                         X(size, V_.cols() + 1);
-    X << V_, across.normalized();
-    const auto [all, images] = map(X);
-    const MatrixXd D         = all.leftCols(V_.cols());
-    Phi                      = images.leftCols(V_.cols()) * lu_solution(D.transpose() * D, D.transpose());
-    // A random direction has 1/sqrt(size) of each of the others.
-    condensed_ = (images - Phi * all).rightCols(1).norm() * std::sqrt(double(size)) <= 10. * left_out;
+    MatrixXd                         X(size, V_.cols() + several);
+    X << V_, MatrixXd::NullaryExpr(size, several, [&](Index, Index) { return normal(random); });
+    X.rightCols(several).colwise().normalize();
+    const auto [D, images] = map(X);
+    Phi = images.leftCols(V_.cols()) * lu_solution(V_.transpose() * D.leftCols(V_.cols()), V_.transpose());
+    const MatrixXd missing = (images - Phi * D).rightCols(several);
+    condensed_             = missing.colwise().norm().maxCoeff() * std::sqrt(double(size)) <= 10. * left_out;
   }
+  ++calls_;
   if (!condensed_)
     Phi = map(MatrixXd::Identity(size, size)).images;
   const SymmetricEigenSolver squares(Phi.transpose() * Phi);

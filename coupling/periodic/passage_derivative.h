@@ -30,10 +30,13 @@ public:
   Eigen::MatrixXd monodromy(Eigen::Index size, const Map &map);
   /// Whether the last one was not complete.
   bool is_condensed() const { return condensed_; }
+  /// The next one is complete.
+  void begin_anew() { V_.resize(0, 0); }
 
 private:
   Eigen::MatrixXd V_; ///< of the last one [2n x k]
   bool            condensed_ = false;
+  unsigned        calls_     = 0;
 };
 
 } // namespace gestell::coupling

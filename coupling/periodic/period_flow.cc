@@ -173,7 +173,17 @@ const PeriodPassage &PeriodFlow::pass_condensed(const VectorXd &q, const VectorX
     X << dq_start_, dv_start_;
     return {weights_.asDiagonal() * X, weights_.asDiagonal() * passage_.monodromy};
   };
-  MatrixXd monodromy = derivative_.monodromy(2 * n, images);
+  MatrixXd monodromy;
+  try
+  {
+    monodromy = derivative_.monodromy(2 * n, images);
+  }
+  catch (...)
+  {
+    carry({}, {});
+    looks_ = looks;
+    throw;
+  }
   carry({}, {});
   monodromy.array().colwise() /= weights_.array();
   monodromy.array().rowwise() *= weights_.transpose().array();

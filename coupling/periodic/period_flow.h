@@ -58,6 +58,8 @@ public:
   /// problem.
   const PassageDerivative &derivative() const { return derivative_; }
   void                     begin_with(const PassageDerivative &derivative) { derivative_ = derivative; }
+  /// The next matrix is complete.
+  void begin_anew() { derivative_.begin_anew(); }
   /// Tangents dq, dv [n x k] with which passages begin, when they are asked for; empty: all of the start.
   void carry(const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv);
 

@@ -127,7 +127,7 @@ Value meshed_in_child(const FrameSpecification &specification, const ChildProgre
     if (first.empty())
       first = last;
   }
-  throw std::invalid_argument(first + " Smaller sizes down to 8/27 of it fail, too.");
+  throw std::invalid_argument(first + " Smaller sizes, down to 8/27 where one is given, fail, too.");
 }
 
 } // namespace gestell::fem

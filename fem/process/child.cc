@@ -209,7 +209,8 @@ public:
       throw std::invalid_argument(task_.head + ": " + out_of_memory());
     if (reads() && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
       throw std::invalid_argument(task_.head + ": " + never_ends());
-    if (!reads() && WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL) // killed: by a user, or for its memory
+    if (!reads() && WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL &&
+        WTERMSIG(status) != SIGXCPU) // killed: by a user, for its memory, or by a limit of time
       throw ChildFault(task_.head + ": " + how_it_died(status));
     throw std::invalid_argument(task_.head + ": " + how_it_died(status));
   }

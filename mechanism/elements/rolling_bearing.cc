@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace gestell::mechanism
 {
@@ -33,6 +34,13 @@ double last_stiffness(const Row &first, const Row &before, const Row &row)
   return std::clamp(((2. * h_1 + h_2) * c_1 - h_1 * c_2) / (h_1 + h_2), 0., 3. * c_1);
 }
 
+std::string digits(double x)
+{
+  std::ostringstream text;
+  text << x;
+  return text.str();
+}
+
 /// At the centre F continues with F(-r) = -F(r), so that both chords are the first one.
 std::vector<double> stiffnesses(const std::vector<Row> &rows)
 {
@@ -58,9 +66,9 @@ RollingBearing::RollingBearing(const Parameters &parameters)
   for (const Row &row : parameters.rows)
   {
     require(std::isfinite(row.deflection) && row.deflection > rows.back().deflection, name, "deflection [m] of a row",
-            row.deflection, "above " + std::to_string(rows.back().deflection) + ": rows rise from zero");
+            row.deflection, "above " + digits(rows.back().deflection) + ": rows rise from zero");
     require(std::isfinite(row.force) && row.force >= rows.back().force, name, "force [N] of a row", row.force,
-            "at least " + std::to_string(rows.back().force) + ": a bearing resists more the further it yields");
+            "at least " + digits(rows.back().force) + ": a bearing resists more the further it yields");
     rows.push_back(row);
   }
   require(rows.back().force > 0., name, "force [N] of the last row", rows.back().force, "positive");

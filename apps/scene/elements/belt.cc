@@ -90,13 +90,13 @@ void read_belt(const SceneTable &table, const Names &names, Scene &scene)
            table.has("length") ? std::optional(table.value("length")) : std::nullopt, 0.05);
 }
 
-/// Radius of the pitch circle, on which the pins lie: p/(2 sin(pi/z)).
+/// Mean radius, z p/(2 pi): on average a sprocket carries z links in a turn.
 double sprocket(const SceneTable &table, const std::string &key)
 {
   const int teeth = table.whole(key);
   if (teeth < 5)
     throw table.error(key, "is " + std::to_string(teeth) + "; a sprocket has at least 5 teeth");
-  return 0.5 * table.value("pitch") / std::sin(M_PI / teeth);
+  return teeth * table.value("pitch") / (2. * M_PI);
 }
 
 /// Length of the chain by its links.

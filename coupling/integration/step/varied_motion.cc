@@ -18,8 +18,7 @@ using Eigen::VectorXd;
 } // namespace
 
 VariedMotion::VariedMotion(const SecondOrderSystem &system, const TimeIntegrator &integrator)
-    : system_(system), integrator_(integrator), mass_(system.linear().factorise(1., 0., 0.)),
-      jacobian_(system.joints().blocks())
+    : system_(system), integrator_(integrator), jacobian_(system.joints().blocks())
 {
   constexpr Index largest_inverse = 200; // coordinates of systems whose A^-1 is kept: it fits a cache
   if (system.linear().size() > largest_inverse || !system.linear().dense_matrices(M_, B_, C_))
@@ -28,6 +27,13 @@ VariedMotion::VariedMotion(const SecondOrderSystem &system, const TimeIntegrator
 }
 
 VariedMotion::~VariedMotion() = default;
+
+const LinearSolver &VariedMotion::mass()
+{
+  if (!mass_)
+    mass_ = system_.linear().factorise(1., 0., 0.);
+  return *mass_;
+}
 
 /// The product with a matrix of the system, by its dense form if there is one.
 MatrixXd VariedMotion::times(Product product, const MatrixXd &dense, const MatrixXd &X) const
@@ -130,7 +136,7 @@ void VariedMotion::project(MatrixXd &dq, MatrixXd &dv)
   system_.joints().constraints(at, g, jacobian_);
   MatrixXd G(g.size(), dq.rows());
   jacobian_.times(W.transpose(), G);
-  const MatrixXd X = solution(*mass_, G.transpose()), H = G * X;
+  const MatrixXd X = solution(mass(), G.transpose()), H = G * X;
   dq -= X * lu_solution(H, G * dq);
   // dG/dt dq = d(G v)/dq dq along each column
   const MatrixXd du = W.transpose() * dq;
@@ -175,33 +181,6 @@ void VariedMotion::linearise_here()
   joints.constraints(at, g, jacobian_);
   G_.resize(n_c, n_u);
   jacobian_.times(MatrixXd::Identity(n_u, n_u), G_);
-  p_lambda_ = G_.transpose();
-  if (elements.need_multipliers())
-    add_multipliers(at);
-}
-
-/// Friction in joints: its force by differences of every multiplier, of which it is a smooth function.
-void VariedMotion::add_multipliers(LocalState &at)
-{
-  constexpr double small = 1e-6; // of the largest multiplier
-  const double     way   = small * at.lambda.cwiseAbs().maxCoeff();
-  if (!(way > 0.))
-    return;
-  const auto p_of = [&]
-  {
-    VectorXd p = at.p;
-    system_.forces().force(at, p);
-    return p;
-  };
-  for (Index j = 0; j < at.lambda.size(); ++j)
-  {
-    const double here   = at.lambda[j];
-    at.lambda[j]        = here + way;
-    const VectorXd more = p_of();
-    at.lambda[j]        = here - way;
-    p_lambda_.col(j) += (more - p_of()) / (2. * way);
-    at.lambda[j] = here;
-  }
 }
 
 VariedMotion::History VariedMotion::history(double h, bool starts) const
@@ -234,7 +213,7 @@ MatrixXd VariedMotion::forces(const Form &form, const MatrixXd &u_free, const Lo
   const double   size = S.cwiseAbs().maxCoeff(); // forces in the unit of motions
   MatrixXd       by_force(n, n_c + n_h);         // dp of the unknown forces
   if (n_c > 0)
-    by_force.leftCols(n_c) = p_lambda_(on, Eigen::all);
+    by_force.leftCols(n_c) = G_(Eigen::all, on).transpose();
   MatrixXd K     = MatrixXd::Zero(n + n_c + n_h, n + n_c + n_h);
   MatrixXd rhs   = MatrixXd::Zero(K.rows(), u_free.cols());
   rhs.topRows(n) = u_free(on, Eigen::all) + S * dp(on, Eigen::all);
@@ -297,7 +276,7 @@ void VariedMotion::jump_tangents(const VectorXd &before, const Eigen::RowVectorX
 {
   VectorXd       jump(now_.q.rows());
   const VectorXd force = system_.forces().directions() * (before - integrator_.local().p);
-  mass_->solve(force, jump);
+  mass().solve(force, jump);
   begin_at({now_.t, now_.q, now_.v + jump * dt, {}});
 }
 

@@ -16,7 +16,7 @@ namespace gestell::coupling
  * Tangents beside an integrator that has none: the variational equations of its motion,
  *
  *     M dq'' + B dq' + C dq = W dp,     du = W^T dq,     G du = 0,     dv_h = 0 of what sticks,
- *     dp = p_u du + p_v dv + p_a da + p_lambda dlambda             of the elements, whose forces turn with the motion,
+ *     dp = p_u du + p_v dv + p_a da                                of the elements, whose forces turn with the motion,
  *     dp = d(G^T lambda)/du du + G^T dlambda                       of the joints,
  *
  * in the integrator's own steps.  With the ratio r of a step h to the one before,
@@ -27,7 +27,8 @@ namespace gestell::coupling
  * which is BDF 2; the first step after a start or a jump takes H of its begin and b = h/2, and goes on to twice the
  * change: the midpoint rule.  Both are of second order in h: these are derivatives of the motion, not of its steps.
  *
- * Motions across the joints are taken out of a start, with the mass as the norm, as ConsistentStart does.
+ * Forces must not depend on multipliers.  Motions across the joints are taken out of a start, with the mass as the
+ * norm, as ConsistentStart does.
  */
 class VariedMotion final : public MotionTangents
 {
@@ -70,30 +71,30 @@ private:
 
   using Product = void (LinearSystem::*)(const Eigen::VectorXd &, Eigen::VectorXd &) const;
 
-  Eigen::MatrixXd times(Product product, const Eigen::MatrixXd &dense, const Eigen::MatrixXd &X) const;
-  Eigen::MatrixXd solution(const LinearSolver &A, const Eigen::MatrixXd &F) const;
-  void            respond(const Form &form, const History &history, Eigen::MatrixXd &free) const;
-  const Form     &form(double b);
-  History         history(double h, bool starts) const;
-  void            linearise_here();
-  void            add_multipliers(LocalState &at);
-  Eigen::MatrixXd forces(const Form &form, const Eigen::MatrixXd &u_free, const LocalTangents &H,
-                         const Eigen::MatrixXd &g) const;
-  void            project(Eigen::MatrixXd &dq, Eigen::MatrixXd &dv);
-  void            begin_at(Point &&point);
+  Eigen::MatrixXd     times(Product product, const Eigen::MatrixXd &dense, const Eigen::MatrixXd &X) const;
+  Eigen::MatrixXd     solution(const LinearSolver &A, const Eigen::MatrixXd &F) const;
+  void                respond(const Form &form, const History &history, Eigen::MatrixXd &free) const;
+  const LinearSolver &mass();
+  const Form         &form(double b);
+  History             history(double h, bool starts) const;
+  void                linearise_here();
+  Eigen::MatrixXd     forces(const Form &form, const Eigen::MatrixXd &u_free, const LocalTangents &H,
+                             const Eigen::MatrixXd &g) const;
+  void                project(Eigen::MatrixXd &dq, Eigen::MatrixXd &dv);
+  void                begin_at(Point &&point);
 
   const SecondOrderSystem      &system_;
   const TimeIntegrator         &integrator_;
   Eigen::MatrixXd               M_, B_, C_; ///< of small systems, else empty
-  std::unique_ptr<LinearSolver> mass_;
-  std::list<Form>               forms_; ///< the last one used first
+  std::unique_ptr<LinearSolver> mass_;      ///< null: not needed so far
+  std::list<Form>               forms_;     ///< the last one used first
   bool                          by_accelerations_ = false;
   Point                         now_, before_;
   bool                          starts_ = true; ///< before_ is not of this motion
   LocalTangents                 local_;
   LocalState                    state_, state_before_; ///< of the last two instants
   Eigen::MatrixXd               p_u_, p_v_, p_a_;      ///< [n_u x n_u]
-  Eigen::MatrixXd               G_, p_lambda_;         ///< [n_c x n_u], [n_u x n_c] with G^T
+  Eigen::MatrixXd               G_;                    ///< [n_c x n_u]
   ConstraintJacobian            jacobian_;
 };
 

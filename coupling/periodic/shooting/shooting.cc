@@ -106,10 +106,11 @@ namespace
 /// Multipliers below what was left out become zero.
 void note_condensed(PeriodicSolution &solution)
 {
-  constexpr double   told = 10. * PassageDerivative::left_out; // error of those that are given: a tenth of them at most
+  constexpr double   told  = 10. * PassageDerivative::left_out; // what may be missing, of all motions together
   const auto         known = solution.multipliers.cwiseAbs().array() >= told;
   std::ostringstream text;
-  text << "multipliers are known to about " << PassageDerivative::left_out << "; those below " << told << " are 0";
+  text << "multipliers are those of motions that keep more than " << PassageDerivative::left_out
+       << " over a period; those below " << told << " are 0";
   solution.notes.push_back(text.str());
   solution.multipliers = known.select(solution.multipliers.array(), std::complex<double>(0.));
 }
@@ -228,7 +229,10 @@ PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &prob
   if (!(equations.closing() <= std::max(options.tolerance, as_integrated)))
     give_up(equations, problem, iterations);
   if (!with_motion)
-    equations.evaluate(z, true); // for the multipliers
+  {
+    equations.flow().begin_anew();
+    equations.evaluate(z, true); // for all multipliers
+  }
   PeriodicSolution solution = equations.solution("shooting");
   solution.work.iterations  = iterations;
   note_residual(solution, options.tolerance);

@@ -187,6 +187,9 @@ public:
   {
     if (why_not_propagated(*problem.system, "settling").empty())
       return "";
+    if (problem.system->forces().need_multipliers())
+      return "shooting without the integrator's own tangents: friction depends on the forces of joints, whose tangents "
+             "at slip and stick are not known; use --method settling";
     constexpr int most = 300; // DOFs: a period with the tangents of all costs as much as settling
     if (problem.turn.size() > most)
       return "shooting without the integrator's own tangents: " + std::to_string(problem.turn.size()) +

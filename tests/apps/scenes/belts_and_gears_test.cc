@@ -232,7 +232,7 @@ TEST(Chain, LeavesItsSlackStrandWithoutForce)
                                             {"stiffness", "2 kN/mm"},
                                             {"pretension", "20 N"}}),
                                    "-30 N m", "FL = 'drive.left_force', FR = 'drive.right_force'"));
-  const double   r      = 0.5 * 0.0127 / std::sin(M_PI / 38.);
+  const double   r      = 38. * 0.0127 / (2. * M_PI);
   EXPECT_NEAR(motion.at(0, motion.column("FL")), 30. / r, 1e-9 * 30. / r);
   EXPECT_EQ(motion.at(0, motion.column("FR")), 0.);
 }
