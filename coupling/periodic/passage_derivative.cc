@@ -15,6 +15,22 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 } // namespace
 
+VectorXd energy_roots(const LinearSystem &linear, double omega)
+{
+  const Index n = linear.size();
+  VectorXd    squares(2 * n), unit = VectorXd::Zero(n), column(n);
+  for (Index i = 0; i < n; ++i)
+  {
+    unit[i] = 1.;
+    linear.mass_times(unit, column);
+    squares[n + i] = std::abs(column[i]);
+    linear.stiffness_times(unit, column);
+    squares[i] = std::abs(column[i]) + omega * omega * squares[n + i];
+    unit[i]    = 0.;
+  }
+  return (squares.array() > 0.).select(squares, 1.).cwiseSqrt(); // without mass and stiffness: as it is
+}
+
 MatrixXd PassageDerivative::monodromy(Index size, const Map &map)
 {
   MatrixXd Phi;

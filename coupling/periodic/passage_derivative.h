@@ -1,11 +1,17 @@
 #pragma once
 
+#include "coupling/integration/system/linear_system.h"
+
 #include <Eigen/Core>
 
 #include <functional>
 
 namespace gestell::coupling
 {
+
+/// Roots of the energies of unit motions q, q' [2n], by the diagonals of M and C: in their norm a frame that vibrates
+/// freely does not grow.
+Eigen::VectorXd energy_roots(const LinearSystem &linear, double omega);
 
 /**
  * The derivative Phi of a period [2n x 2n] where tangents cost more than the motion, of motions in the norm of energy.

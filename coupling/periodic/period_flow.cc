@@ -132,27 +132,6 @@ const PeriodPassage &PeriodFlow::pass(const VectorXd &q, const VectorXd &v, doub
   return passage_;
 }
 
-namespace
-{
-/// Roots of the energies of unit motions q, q' [2n], by the diagonals of M and C: in their norm a frame that vibrates
-/// freely does not grow.
-VectorXd energy_roots(const LinearSystem &linear, double omega)
-{
-  const Index n = linear.size();
-  VectorXd    squares(2 * n), unit = VectorXd::Zero(n), column(n);
-  for (Index i = 0; i < n; ++i)
-  {
-    unit[i] = 1.;
-    linear.mass_times(unit, column);
-    squares[n + i] = std::abs(column[i]);
-    linear.stiffness_times(unit, column);
-    squares[i] = std::abs(column[i]) + omega * omega * squares[n + i];
-    unit[i]    = 0.;
-  }
-  return (squares.array() > 0.).select(squares, 1.).cwiseSqrt(); // without mass and stiffness: as it is
-}
-} // namespace
-
 const PeriodPassage &PeriodFlow::pass_condensed(const VectorXd &q, const VectorXd &v, double period)
 {
   const Index n     = q.size();

@@ -54,13 +54,13 @@ private:
   VariationalEquation            equation_;
   SignalDerivatives              signals_;
   VariationalSteps               steps_;
+  double                         near_; ///< [s] instants closer than this coincide
   ExtremeDerivatives             extremes_;
   std::vector<OutputDerivatives> events_;
   Growth                         growth_;
   VectorXd                       lambda_;
   MatrixXd                       s_, s_rate_;
   RowVectorXd                    dt_; ///< derivatives of the instant of the events at the start of the piece
-  double                         near_        = 0.;
   bool                           interrupted_ = false;
 };
 
@@ -99,10 +99,9 @@ Passage::Passage(const SensitivityProblem &problem)
       signals_(machine_, problem.signals, problem.twins, equation_),
       steps_(equation_, first_step(problem), tolerance_for(problem.options.method),
              order_of_steps(problem.options.method), problem.options.method.step),
-      extremes_(problem.run, problem.twins, problem.options.begin, same_time * length_of(problem.options),
-                length_of(problem.options)),
-      growth_(machine_, equation_.mass_diagonal(), problem.trajectory, problem.twins),
-      near_(same_time * length_of(problem.options))
+      near_(same_time * length_of(problem.options)),
+      extremes_(problem.run, problem.twins, problem.options.begin, near_, length_of(problem.options)),
+      growth_(machine_, equation_.mass_diagonal(), problem.trajectory, problem.twins)
 {
 }
 
