@@ -122,11 +122,49 @@ void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution)
     solution.notes.push_back(note.str());
 }
 
+namespace
+{
+/// Multipliers of an unstable motion by shorter steps, until they agree: where a motion is smooth its steps are long,
+/// and tangents of long steps grow on stiff elements that hardly move.
+void refine_unstable(const PeriodicProblem &problem, PeriodicSolution &solution)
+{
+  constexpr double longest = 1. / 256., shortest = longest / 256.; // steps, of a period: a quarter of those of a search
+  constexpr double agree = 0.01;                                   // of the largest multiplier
+  const double     given = solution.integration.step > 0. ? solution.integration.step : solution.period;
+  try
+  {
+    for (double share = longest; share >= shortest && !solution.stable(); share *= 0.25)
+    {
+      MethodOptions finer = solution.integration;
+      finer.step          = std::min(given, share * solution.period);
+      PeriodFlow flow(problem, finer);
+      if (!flow.has_tangents())
+        return;
+      const double before = solution.largest_multiplier();
+      solution.multipliers =
+          multipliers_of(flow.pass(solution.q, solution.v, solution.period, true).monodromy, problem);
+      if (std::abs(solution.largest_multiplier() - before) <= agree * before)
+        return;
+    }
+  }
+  catch (const SearchInterrupted &)
+  {
+  }
+  catch (const std::exception &)
+  {
+  } // as they were found
+}
+} // namespace
+
 void verify_stable(const PeriodicProblem &problem, std::vector<PeriodicSolution> &solutions)
 {
   for (PeriodicSolution &solution : solutions)
+  {
+    if (solution.stability_is_known() && !solution.stable() && solution.q.size() == problem.turn.size())
+      refine_unstable(problem, solution);
     if (can_be_verified(problem, solution))
       verify_by_run(problem, solution);
+  }
 }
 
 void verify_branch(const ProblemFamily &family, Branch &branch)

@@ -23,7 +23,7 @@ constexpr int verified_periods = 20;
 void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution);
 
 /// Those that are stable by their multipliers, unless they are verified already; by averaging only those of a given
-/// period.
+/// period.  The multipliers of the others are those of shorter steps.
 void verify_stable(const PeriodicProblem &problem, std::vector<PeriodicSolution> &solutions);
 
 /// Of each stretch of a branch without a motion that is unstable the first one, the middle one and the last; all of it,
