@@ -1,5 +1,6 @@
 #include "fem/assembly/affine_constraints.h"
 
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
@@ -22,6 +23,14 @@ struct AffineConstraints::Lines
 
 namespace
 {
+
+/// Threads of deal.II do not survive the fork of a child, which would wait for them without end.  Its loops here are
+/// short.
+[[maybe_unused]] const bool without_threads = []
+{
+  dealii::MultithreadInfo::set_thread_limit(1);
+  return true;
+}();
 
 using Indices = std::vector<dealii::types::global_dof_index>;
 
