@@ -218,6 +218,30 @@ TEST(GearedRotors, AnIdealGearOfAnyRatioIsFoundInItsJoint)
   }
 }
 
+/// A belt so stiff that it hardly moves: steps of the smooth motion are long, and their own tangents grow on it.
+TEST(GearedRotors, AreStableHoweverStiffTheirBelt)
+{
+  const std::string text =
+      rotor_body("motor", "0.02 kg m^2", "[0, 1, 0]") + rotor_body("wheel", "0.4 kg m^2", "[0, 1, 0]") +
+      measure("belt", "sum",
+              {{"terms", "[{ of = 'motor', factor = '40 mm' }, { of = 'wheel', factor = '-148 mm' }]"}}) +
+      element("belt", "spring-damper", {{"on", "belt"}, {"stiffness", "400 kN/mm"}, {"damping", "5 kN s/m"}}) +
+      element("drive", "formula force",
+              {{"from", "motor"}, {"to", "ground"}, {"about", "[0, 1, 0]"}, {"force", "40 N*m - 0.3 N*m*s/rad*v"}}) +
+      element("load", "spring-damper", {{"from", "wheel"}, {"about", "[0, 1, 0]"}, {"damping", "0.3 N m s/rad"}}) +
+      test::quoted("[start]\nrule = 'given'\nv = { motor = '130 rad/s', wheel = '35.135 rad/s' }\n"
+                   "[run]\nmethod = 'exact'\ntolerance = 1e-9\nend = '1 s'\n"
+                   "[output.signals]\nw = 'motor.speed'\n");
+  const double of_speed = -0.3 * (1. + 1. / (3.7 * 3.7)) / (0.02 + 0.4 / (3.7 * 3.7));
+  for (const std::string method : {"shooting", "collocation"})
+  {
+    const PeriodicResult result = by(method, text);
+    ASSERT_EQ(result.entries.size(), 1u) << method << result.failure;
+    const PeriodicSolution &found = result.entries[0].solution;
+    EXPECT_NEAR(found.largest_multiplier(), std::exp(of_speed * found.period), 1e-4) << method;
+  }
+}
+
 /// A pendulum of three coordinates in its ideal pin, whose force turns with it, and the same of one angle: multipliers
 /// by the variational equations beside BDF are those of exact tangents, to the second order of the steps.
 TEST(IdealJoints, OfAPendulumHaveTheMultipliersOfItsAngle)
