@@ -237,7 +237,7 @@ TEST(GearedRotors, AreStableHoweverStiffTheirBelt)
   {
     const PeriodicResult result = by(method, text);
     ASSERT_EQ(result.entries.size(), 1u) << method << result.failure;
-    const PeriodicSolution &found = result.entries[0].solution;
+    const coupling::PeriodicSolution &found = result.entries[0].solution;
     EXPECT_NEAR(found.largest_multiplier(), std::exp(of_speed * found.period), 1e-4) << method;
   }
 }
