@@ -14,7 +14,7 @@ namespace
 
 using mechanism::Belt;
 
-/// A belt or chain around two wheels, as described.
+/// A belt or chain around two wheels, in the initial configuration.
 struct Loop
 {
   double from = 0., to = 0.; ///< radii [m]; `to` negative: crossed
@@ -84,7 +84,7 @@ void read_belt(const SceneTable &table, const Names &names, Scene &scene)
         "of the two");
   const WheelPair wheels = read_wheels(table, names, "pulley");
   const double    to     = table.value("radius_to");
-  // Belts that hold by their stretch alone are mounted with up to 5 %; beyond, E A is no constant.
+  // Belts that hold by their stretch alone are mounted with up to 5 %; beyond that E A is not constant.
   add_loop(table, scene, wheels,
            loop_around(table, table.value("radius_from"), table.truth("crossed") ? -to : to, wheels.distance),
            table.has("length") ? std::optional(table.value("length")) : std::nullopt, 0.05);

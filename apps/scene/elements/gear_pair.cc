@@ -13,7 +13,7 @@ namespace
 
 using mechanism::GearPair;
 
-/// Pitch circles and angles of a gear pair as described.
+/// Pitch circles and angles of a gear pair in the initial configuration.
 struct Teeth
 {
   double from = 0., to = 0.;                 ///< pitch radii [m]; `to` negative: a ring
