@@ -3,31 +3,21 @@
 #include "coupling/integration/system/acceleration_forces.h"
 
 #include <algorithm>
-#include <sstream>
 #include <vector>
 
 namespace gestell::coupling
 {
 
-namespace
-{
-[[noreturn]] void fail_divided(const ConvergenceFailure &reason, int halvings, double step)
-{
-  std::ostringstream message;
-  message << reason.what() << "; the step was halved " << halvings << " times, to " << step << " s";
-  throw ConvergenceFailure(message.str(), reason.id(), reason.place());
-}
-} // namespace
-
 Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
-    : system_(system), options_(options), implicit_(system, options.newton), virtual_rates_(system)
+    : system_(system), options_(options), implicit_(system, options.newton), virtual_rates_(system),
+      load_on_grid_(system.linear().excitation())
 {
   if (options.order < 1 || options.order > 6)
     throw std::invalid_argument("BDF: order " + std::to_string(options.order) + "; orders 1 to 6 exist");
   if (!(options.step > 0.))
     throw std::invalid_argument("BDF: step " + std::to_string(options.step) + " s; it must be positive");
   const int n = system.linear().size(), n_u = static_cast<int>(system.forces().directions().cols());
-  for (Eigen::VectorXd *x : {&f_t_, &f_, &h_q_, &h_w_, &product_, &now_.q, &now_.v, &q_inside_, &v_inside_})
+  for (Eigen::VectorXd *x : {&f_here_, &f_, &h_q_, &h_w_, &product_, &now_.q, &now_.v, &q_inside_, &v_inside_})
     x->setZero(n);
   g_.setZero(n_u);
   g_rate_.setZero(n_u);
@@ -40,11 +30,20 @@ Bdf::Bdf(const SecondOrderSystem &system, const Options &options)
 
 void Bdf::load(double t)
 {
-  const Excitation &excitation = system_.linear().excitation();
-  if (load_known_ && excitation.is_constant())
+  if (load_known_ && system_.linear().excitation().is_constant())
     return;
-  excitation.at(t, f_t_);
+  system_.linear().excitation().at(t, f_here_);
   load_known_ = true;
+  on_grid_    = false;
+}
+
+/// The same at the end of step k.
+void Bdf::load_on_grid(long k)
+{
+  if (load_known_ && system_.linear().excitation().is_constant())
+    return;
+  load_on_grid_.find(t_begin_, options_.step, k);
+  load_known_ = on_grid_ = true;
 }
 
 void Bdf::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
@@ -280,6 +279,7 @@ void Bdf::multistep(double t)
     else
       predict(&Point::u, &Point::u_rate, local_.u);
     implicit_.expect_good_predictions(options_.order <= 2 && n_past_ >= 3);
+    load_on_grid(index_ + 1);
     formula_step(options_.order, points, t, options_.step, to);
     implicit_.expect_good_predictions(false);
   }
@@ -342,9 +342,9 @@ void Bdf::formula_step(int order, const Point *const *past, double t, double ste
   history(&Point::w, h_w_);
   history(&Point::u_rate, g_rate_);
   history(&Point::u, g_);
-  load(t);
-  f_      = h_beta * h_w_ + (h_beta * h_beta) * f_t_;
-  base_.t = t;
+  const Eigen::VectorXd &f_t = on_grid_ ? load_on_grid_.value() : f_here_;
+  f_                         = h_beta * h_w_ + (h_beta * h_beta) * f_t;
+  base_.t                    = t;
   base_.u.setZero();
   base_.v = -inverse * g_;
   base_.a = inverse * (base_.v - g_rate_);
@@ -359,87 +359,8 @@ void Bdf::formula_step(int order, const Point *const *past, double t, double ste
   to.p      = local_.p;
   to.lambda = local_.lambda;
   system_.linear().stiffness_times(to.q, product_);
-  to.w = h_w_ + h_beta * (f_t_ - product_);
+  to.w = h_w_ + h_beta * (f_t - product_);
   add_forces(system_.forces().directions(), h_beta, local_.p, to.w);
-}
-
-void Bdf::divided_step(const Point &from, double length, int halvings, Point &to)
-{
-  const double half   = 0.5 * length;
-  const Point  start  = from;
-  Point        middle = from;
-  for (int part = 0; part < 2; ++part)
-  {
-    const Point *begin    = part == 0 ? &start : &middle;
-    Point       &end      = part == 0 ? middle : to;
-    const Point  base     = *begin;
-    const Point *points[] = {&base};
-    try
-    {
-      local_.u = base.u + half * base.u_rate;
-      if (implicit_.is_sparse())
-        end.q = base.q + half * base.v;
-      formula_step(1, points, base.t + half, half, end);
-    }
-    catch (const ConvergenceFailure &failure)
-    {
-      if (halvings == options_.max_halvings)
-        fail_divided(failure, halvings, half);
-      ++work_.rejected;
-      divided_step(base, half, halvings + 1, end);
-    }
-  }
-}
-
-void Bdf::euler_chain(const Point &from, double length, int n, Point &to)
-{
-  Point        base = from;
-  const double step = length / n;
-  for (int i = 0; i < n; ++i)
-  {
-    const Point *points[] = {&base};
-    try
-    {
-      local_.u = base.u + step * base.u_rate;
-      if (implicit_.is_sparse())
-        to.q = base.q + step * base.v;
-      formula_step(1, points, base.t + step, step, to);
-    }
-    catch (const ConvergenceFailure &)
-    {
-      ++work_.rejected;
-      divided_step(base, step, 1, to);
-    }
-    base = to;
-  }
-}
-
-void Bdf::start_value(double t)
-{
-  // One order more for BDF 2: after an event the acceleration may start at zero (slip from rest), and then the
-  // displacement of the first step consists of local error.
-  const int          order = options_.order == 2 ? 3 : options_.order;
-  const double       h     = options_.step;
-  std::vector<Point> table(order, past(0)); // Neville's table, newest column in place
-  for (int j = 0; j < order; ++j)
-  {
-    euler_chain(past(0), h, j + 1, table[j]);
-    for (int k = j - 1; k >= 0; --k)
-    {
-      // table[k] becomes the value of order j - k + 1 from the chains k + 1 .. j + 1
-      const double weight = 1. / (static_cast<double>(j + 1) / (k + 1) - 1.);
-      const auto   refine = [&](Eigen::VectorXd Point::*x)
-      { table[k].*x = table[k + 1].*x + weight * (table[k + 1].*x - table[k].*x); };
-      for (auto x : {&Point::q, &Point::v, &Point::w, &Point::u, &Point::u_rate, &Point::a, &Point::p, &Point::lambda})
-        refine(x);
-    }
-  }
-  push();
-  past(0)   = table[0];
-  past(0).t = t;
-  if (is_implied())
-    find_implied(past(0));
-  present(past(0));
 }
 
 } // namespace gestell::coupling

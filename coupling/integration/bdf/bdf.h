@@ -4,6 +4,7 @@
 #include "coupling/integration/step/consistent_start.h"
 #include "coupling/integration/step/implicit_step.h"
 #include "coupling/integration/step/virtual_rates.h"
+#include "coupling/integration/system/excitation_on_grid.h"
 #include "coupling/integration/system/resumable.h"
 #include "coupling/integration/system/time_integrator.h"
 
@@ -91,6 +92,7 @@ private:
   void         predict(Eigen::VectorXd Point::*x, Eigen::VectorXd Point::*rate, Eigen::VectorXd &to) const;
   void         formula_step(int order, const Point *const *past, double t, double step, Point &to);
   void         load(double t);
+  void         load_on_grid(long k);
   void         present(const Point &point);
   int          interpolation_points(double *t, const Point **points) const;
   int          value_weights(double t, double *weights) const;
@@ -101,6 +103,7 @@ private:
   Options                     options_;
   ImplicitStep                implicit_;
   VirtualRates                virtual_rates_;
+  ExcitationOnGrid            load_on_grid_;
   mutable IntegrationWork     work_;
   mutable Instant             now_;
   mutable bool                now_known_ = false;
@@ -111,10 +114,10 @@ private:
   Point                       cut_point_;
   bool                        cut_ = false; ///< the present instant is cut_point_, inside the last step
   LocalState                  local_, base_;
-  Eigen::VectorXd             f_t_, f_, h_q_, h_w_, g_, g_rate_, product_;
+  Eigen::VectorXd             f_here_, f_, h_q_, h_w_, g_, g_rate_, product_;
   Eigen::VectorXd             lambda_; ///< predicted multipliers, if the step is sparse
   mutable Eigen::VectorXd     q_inside_, v_inside_;
-  bool                        load_known_ = false;
+  bool                        load_known_ = false, on_grid_ = false; ///< the load of this step, and where it is
 
   std::unique_ptr<ConsistentStart> consistent_;       ///< created when a measure first sticks, or for joints
   bool                             massless_ = false; ///< M is singular: there is no consistent start

@@ -17,9 +17,9 @@ void Bdf::exchange(StateArchive &archive)
   archive(is_consistent);
   if (is_consistent && has_consistent())
     consistent_->exchange(archive);
-  archive(implicit_, t_begin_, index_, points_, newest_, n_past_, cut_point_, cut_, local_, base_, f_t_, load_known_,
-          work_);
-  now_known_ = false;
+  archive(implicit_, t_begin_, index_, points_, newest_, n_past_, cut_point_, cut_, local_, base_, work_);
+  now_known_  = false;
+  load_known_ = false;
 }
 
 void BdfControlled::exchange(StateArchive &archive)
