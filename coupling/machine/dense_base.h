@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/algebra/packed_matrix.h"
 #include "coupling/machine/linear_base.h"
 
 #include <Eigen/Core>
@@ -58,9 +59,9 @@ private:
   /// A matrix by the blocks that are not zero.
   struct Blocks
   {
-    Eigen::MatrixXd NN;       // [n_N x n_N]
+    PackedMatrix    NN;       // [n_N x n_N]
     Eigen::VectorXd alone;    // [n_N] of NN if it is diagonal, as for bodies in a plane; else empty
-    Eigen::MatrixXd LN;       // [n_L x k] its first columns, up to the last non-zero one; empty if there is none
+    PackedMatrix    LN;       // [n_L x k] its first columns, up to the last non-zero one
     Eigen::VectorXd diagonal; // [n_L] of LL
     Eigen::MatrixXd LL;       // [n_L x n_L]; empty if diagonal
   };
@@ -71,7 +72,7 @@ private:
   ModalRange              L_;
   std::vector<int>        N_;
   Blocks                  mass_, damping_, stiffness_;
-  mutable Eigen::VectorXd x_N_, y_N_;
+  mutable Eigen::VectorXd x_N_, y_N_; ///< y_N padded
 };
 
 } // namespace gestell::coupling
