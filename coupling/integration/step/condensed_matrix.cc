@@ -58,8 +58,9 @@ CondensedMatrix::CondensedMatrix(const SecondOrderSystem &system, const LoadedCo
   }
   for (const Block &block : joint_blocks_)
     most = std::max(most, block.places.size());
-  plain_         = loaded.are_measures() && equations_.empty() && largest <= std::size_t(few);
   const auto n_u = system.forces().directions().cols();
+  if (loaded.are_measures() && equations_.empty() && largest <= std::size_t(few))
+    plain_ = std::make_unique<PlainMatrix>(system.forces().blocks(), int(n_u));
   const auto n_c = equations_.size();
   scalars_.reserve(n_F);
   kept_held_.reserve(n_F);
@@ -272,8 +273,6 @@ void CondensedMatrix::collect_measures(const Compliance &S, const Block &block, 
     std::copy_n(column, k, scalar.b);
     if (sticks)
       scalar.b[j] = 1. / own_compliance(S, measure);
-    if (plain_)
-      continue;
     block.to_places(scalar.l, scalar.l_q);
     block.to_places(scalar.b, scalar.b_q);
   }
@@ -314,28 +313,6 @@ void CondensedMatrix::fill_forces(const Compliance &S)
   }
 }
 
-/// The same where scalars are measures.
-void CondensedMatrix::fill_plain(const Compliance &S)
-{
-  const int              n     = n_scalars();
-  const Eigen::MatrixXd &whole = S.matrix();
-  double                *J     = forces_.use(n);
-  for (int c = 0; c < n; ++c, J += n)
-  {
-    const Scalar &column = scalars_[std::size_t(c)];
-    std::fill_n(J, n, 0.);
-    for (int j = 0; j < column.block->n_measures; ++j)
-      if (const double b = column.b[j]; b != 0.)
-      {
-        const double *moved = whole.data() + whole.rows() * (column.block->first_measure + j);
-        for (int a = 0; a < n; ++a)
-          J[a] -= b * moved[scalars_[std::size_t(a)].measure];
-      }
-    if (!column.held)
-      J[c] += 1.;
-  }
-}
-
 /// P_L, P_B, J^-1 P_L and H.
 void CondensedMatrix::border()
 {
@@ -365,13 +342,18 @@ bool CondensedMatrix::factorise_forces(const Compliance &S, const Eigen::VectorX
                                        const std::vector<HeldMeasure> &held)
 {
   kept_S_ = nullptr;
-  collect(S, tangent.data(), held);
   if (plain_)
-    fill_plain(S);
+  {
+    if (!plain_->factorise(S.matrix(), tangent.data(), held))
+      return false;
+  }
   else
+  {
+    collect(S, tangent.data(), held);
     fill_forces(S);
-  if (!forces_.factorise(!held.empty()))
-    return false;
+    if (!forces_.factorise(!held.empty()))
+      return false;
+  }
   kept_S_       = &S;
   kept_tangent_ = tangent;
   kept_held_.clear();
@@ -401,6 +383,11 @@ bool CondensedMatrix::factorise(const Compliance &S, const Eigen::VectorXd &tang
 void CondensedMatrix::solve_in_place(const Compliance &S, const ConstraintJacobian &G, Eigen::VectorXd &r,
                                      Eigen::VectorXd &g)
 {
+  if (plain_)
+  {
+    plain_->solve_in_place(r);
+    return;
+  }
   const int n = n_scalars(), n_c = int(equations_.size());
   for (int a = 0; a < n; ++a)
   {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "coupling/integration/step/compliance.h"
+#include "coupling/integration/step/plain_matrix.h"
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/integration/system/small_lu.h"
 
+#include <memory>
 #include <vector>
 
 namespace gestell::coupling
@@ -56,7 +58,7 @@ public:
   /// The equation that depends on those before it.
   int failed_joint() const { return failed_joint_; }
   /// n_y of the last factorisation.
-  int n_scalars() const { return int(scalars_.size()); }
+  int n_scalars() const { return plain_ ? plain_->size() : int(scalars_.size()); }
 
 private:
   /// Measures of an element or joint, and the loaded coordinates that move them.
@@ -94,7 +96,6 @@ private:
   bool keeps_forces(const Compliance &S, const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held) const;
   bool factorise_forces(const Compliance &S, const Eigen::VectorXd &tangent, const std::vector<HeldMeasure> &held);
   void fill_forces(const Compliance &S);
-  void fill_plain(const Compliance &S);
   void border();
   void add_motion(const Compliance &S, const ConstraintJacobian &G, const Eigen::VectorXd &dlambda, Eigen::VectorXd &r);
 
@@ -113,13 +114,12 @@ private:
   SmallLu                        joints_;          ///< H
   Eigen::VectorXd                y_, p_;           ///< [n_y], [n_u]
   bool                           all_seen_ = true; ///< every measure of forces is a scalar: delta follows without S
-  bool                           plain_ =
-      false; ///< measures are the places and the scalars, and there are no joints: numbers on places are unused
-  int               failed_joint_ = -1;
-  const Compliance *kept_S_       = nullptr; ///< of J; null: there is none
-  Eigen::VectorXd   kept_tangent_;           ///< of J
-  std::vector<int>  kept_held_;              ///< sticking measures of J
-  bool              joints_known_ = false;   ///< H belongs to J and G
+  std::unique_ptr<PlainMatrix>   plain_;           ///< J, where measures are the places and the scalars; else null
+  int                            failed_joint_ = -1;
+  const Compliance              *kept_S_       = nullptr; ///< of J; null: there is none
+  Eigen::VectorXd                kept_tangent_;           ///< of J
+  std::vector<int>               kept_held_;              ///< sticking measures of J
+  bool                           joints_known_ = false;   ///< H belongs to J and G
 };
 
 } // namespace gestell::coupling

@@ -1,6 +1,7 @@
 #include "coupling/integration/step/implicit_step.h"
 
 #include "coupling/integration/step/condensed_matrix.h"
+#include "coupling/integration/step/directions.h"
 #include "coupling/integration/step/law_values.h"
 #include "coupling/integration/step/rounding_floors.h"
 
@@ -409,7 +410,7 @@ void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &bas
       throw ConvergenceFailure("the motion grew beyond all numbers at t = " + std::to_string(base.t) + " s");
     return;
   }
-  xi_free_.noalias() = W.transpose() * x;
+  take_measures(W, x, xi_free_);
   if (condensed.form.w_u != 0.)
     xi_ = (local.u - base.u) / condensed.form.w_u;
   else

@@ -56,8 +56,9 @@ public:
         [&](const auto n)
         {
           const double *a = a_.data();
-          for (int k = 0; k < n; ++k)
-            std::swap(x[k], x[pivot_[k]]);
+          if (interchanged_)
+            for (int k = 0; k < n; ++k)
+              std::swap(x[k], x[pivot_[k]]);
           for (int k = 0; k < n; ++k)
             for (int i = k + 1; !idle_[k] && i < n; ++i)
               x[i] -= a[i + n * k] * x[k];
@@ -74,7 +75,7 @@ public:
   template <typename Archive>
   void exchange(Archive &archive)
   {
-    archive(a_, row_size_, pivot_, idle_, least_, failed_);
+    archive(a_, row_size_, pivot_, idle_, interchanged_, least_, failed_);
   }
 
 private:
@@ -107,6 +108,7 @@ private:
     constexpr double rounding = 1e-14;
     double          *a        = a_.data();
     least_                    = n > 0 ? a[0] : 1.;
+    interchanged_             = false;
     row_size_.setZero();
     for (int j = 0; redundant && j < n; ++j)
       for (int i = 0; i < n; ++i)
@@ -123,8 +125,9 @@ private:
           largest = size, pivot = i;
       }
       pivot_[k] = pivot;
-      idle_[k]  = below == 0.;
-      failed_   = k;
+      interchanged_ |= pivot != k;
+      idle_[k] = below == 0.;
+      failed_  = k;
       if (!(largest > rounding * row_size_[pivot] || largest > rounding * terms(pivot, k)) || !std::isfinite(largest))
         return false;
       least_ = std::min(least_, pivot == k ? a[k + n * k] : -1.);
@@ -161,8 +164,9 @@ private:
   Eigen::VectorXd   row_size_; ///< largest entry of each row before elimination
   std::vector<int>  pivot_;
   std::vector<char> idle_; ///< columns with nothing below the pivot
-  double            least_  = 1.;
-  int               failed_ = 0;
+  bool              interchanged_ = false;
+  double            least_        = 1.;
+  int               failed_       = 0;
 };
 
 } // namespace gestell::coupling

@@ -26,16 +26,17 @@ struct BlocksOfJoints : IdealJoints
 class RandomMechanism : public SmallSystem
 {
 public:
-  RandomMechanism(unsigned seed, int n_bodies, int n_elements, int n_joints)
+  RandomMechanism(unsigned seed, int n_bodies, int n_elements, int n_joints,
+                  const std::array<int, 4> &n_measures = {1, 12, 2, 7})
       : SmallSystem(Matrix::Identity(6 + 6 * n_bodies, 6 + 6 * n_bodies), {}, {}), engine(seed)
   {
     const Matrix frame = random(6, 6);
     M.topLeftCorner(6, 6) += frame * frame.transpose();
-    constexpr int n_measures[] = {1, 12, 2, 7};
     for (int e = 0; e < n_elements; ++e)
     {
-      elements.push_back({n_u_, n_measures[e % 4]});
-      add_measures(n_measures[e % 4]);
+      const int k = n_measures[std::size_t(e % 4)];
+      elements.push_back({n_u_, k});
+      add_measures(k);
       if (e >= n_joints)
         continue;
       own_joints.all.push_back({own_joints.n_rows(), 1 + e % 3, n_u_, 9, 1.});
@@ -175,6 +176,26 @@ TEST(CondensedMatrix, AMeasureThatSticksHasItsForceAsUnknown)
     at.tangent[first] = 0.;
     CondensedMatrix matrix(mechanism, *at.loaded);
     EXPECT_LT(difference(mechanism, at, {{sticks.first_measure, 0.}}, matrix), 1e-11) << "seed " << seed;
+  }
+}
+
+/// Elements of few measures without joints: PlainMatrix.
+TEST(CondensedMatrix, FewMeasuresWithoutJointsHaveTheSolutionOfTheDenseMatrix)
+{
+  for (unsigned seed = 1; seed <= 40; ++seed)
+  {
+    RandomMechanism mechanism(seed, 2, 1 + int(seed % 5), 0, {1, 3, 1, 2});
+    CondensedMatrix matrix(mechanism, LoadedCoordinates(mechanism.W));
+    for (const int rank : {0, 1, 3})
+      EXPECT_LT(difference(mechanism, Linearised(mechanism, rank), {}, matrix), 1e-11) << seed << ", rank " << rank;
+    if (seed % 5 < 2)
+      continue;
+    Linearised at(mechanism, 2); // the third element, of one measure, sticks
+    const int  sticks                   = mechanism.elements[2].first_measure;
+    at.dense(sticks, sticks)            = 0.;
+    at.tangent[1 * 1 + 3 * 3]           = 0.;
+    const std::vector<HeldMeasure> held = {{sticks, 0.}};
+    EXPECT_LT(difference(mechanism, at, held, matrix), 1e-11) << "seed " << seed << ", sticking";
   }
 }
 
