@@ -48,9 +48,9 @@ public:
     Eigen::Index j = 0;
     for (; j + 8 <= cols(); j += 8)
       add_columns<8>(j, x, y + j, factor);
-    for (; j + 2 <= cols(); j += 2)
-      add_columns<2>(j, x, y + j, factor);
-    if (j < cols())
+    for (; j + 4 <= cols(); j += 4)
+      add_columns<4>(j, x, y + j, factor);
+    for (; j < cols(); ++j)
       add_columns<1>(j, x, y + j, factor);
   }
 

@@ -203,8 +203,8 @@ PeriodicSolution reported(const PeriodicProblem &problem, const Settled &settled
   else
   {
     solution.multipliers = Eigen::VectorXcd::Constant(1, std::min(settled.contraction, 1. - 1e-9));
-    solution.notes.push_back("the multiplier is estimated from the convergence of the last periods: " +
-                             method_name(options.integration) + " has no tangents");
+    solution.notes.push_back("the multiplier is estimated from the convergence of the last periods; --method shooting "
+                             "computes all of them");
   }
   solution.notes.push_back("settled in " + std::to_string(settled.periods) + " periods");
   return solution;
