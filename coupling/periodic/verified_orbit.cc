@@ -147,9 +147,6 @@ void refine_unstable(const PeriodicProblem &problem, PeriodicSolution &solution)
         return;
     }
   }
-  catch (const SearchInterrupted &)
-  {
-  }
   catch (const std::exception &)
   {
   } // as they were found
