@@ -54,7 +54,7 @@ std::string atlas_markdown(const std::vector<AtlasEntry> &entries, const std::st
       "# Failure atlas\n\n"
       "For every method the place where it fails: predicted from the roots of its step "
       "([stability.md](stability.md)), and measured by stepping the program's own integrators. Made by\n\n"
-      "    gestell stability --atlas docs/failure_atlas.md\n\n"
+      "    gestell stability --atlas docs/theory/failure_atlas.md\n\n"
       "`tests/apps/cli/failure_atlas_test.cc` makes the numbers anew. A run meets none of this unasked: the "
       "stability guard refuses what would grow, events are located, Newton solves the forces.\n\n";
   for (const AtlasEntry &entry : entries)

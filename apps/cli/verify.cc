@@ -181,7 +181,7 @@ int verify(const VerifyOptions &requested)
                     writing.write("verification.html", verification_page(all));
                   });
   if (!requested.docs.empty())
-    write_file(fs::path(requested.docs) / "verification.md", verification_document(all));
+    write_file(fs::path(requested.docs) / "trust/verification.md", verification_document(all));
   std::cout << verdict_text(all) << "\nmanual: " << (folder / "verification.html").string() << '\n';
   return all.n_failed() == 0 ? exit_done : exit_failed;
 }
@@ -201,7 +201,7 @@ Command verify_command()
        {"-o,--output", &own->folder, "folder for the manual (default results/verification)"},
        {"--all", &own->all, "long cases, too"},
        {"--list", &own->list, "name the cases, instead"},
-       {"--renew", &own->docs, "write verification.md in this folder of documents as well"}},
+       {"--renew", &own->docs, "also write trust/verification.md in this folder of documents"}},
       [own](const CommonOptions &) { return verify(*own); }};
 }
 

@@ -143,11 +143,12 @@ std::string renewed(const std::string &document)
 void renew_reference(const std::string &docs)
 {
   const std::filesystem::path        folder = docs;
-  std::vector<std::filesystem::path> documents{folder / "scene.md", folder / "results.md", folder / "study.md"};
-  for (const auto &entry : std::filesystem::directory_iterator(folder / "scene"))
-    documents.push_back(entry.path());
-  for (const auto &document : documents)
-    write_file(document.string(), renewed(content(document)));
+  if (!std::filesystem::is_directory(folder / "reference"))
+    throw std::invalid_argument("--renew: " + docs + " has no folder reference; name the folder docs of the sources");
+  for (const auto &entry : std::filesystem::recursive_directory_iterator(folder / "reference"))
+    if (entry.path().extension() == ".md")
+      if (const std::string document = content(entry.path()), now = renewed(document); now != document)
+        write_file(entry.path().string(), now);
   write_file((folder / "scene.schema.json").string(), json_schema());
   write_file((folder / "summary.schema.json").string(), summary_schema(result_of_all_kinds()));
 }

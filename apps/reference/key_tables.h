@@ -17,7 +17,7 @@ std::string key_tables(const std::string &topic);
 /// result files -->", to "<!-- end -->".
 std::string renewed(const std::string &document);
 
-/// Regenerates the schema and all documents in the folder docs: those in its folder scene, scene.md and results.md.
+/// Regenerates the schema and all documents in the folder docs: those in its folder reference.
 void renew_reference(const std::string &docs);
 
 } // namespace gestell::apps

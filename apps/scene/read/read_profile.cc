@@ -127,7 +127,7 @@ mechanism::CommandedProfile read_free_course(const SceneTable &table, const std:
 Key or_input(Key course)
 {
   course.keys.push_back(key::plain("input", Key::Form::text,
-                                   "name of an input that [other programs](../fmu.md) set; by itself it stays at the "
+                                   "name of an input that [other programs](../../how_to/fmu.md) set; by itself it stays at the "
                                    "initial level")
                             .by_default("none"));
   return course;

@@ -130,10 +130,10 @@ def wrong_entry(entry):
 
 
 TESTERS = {  # of pages with blocks of other languages: the test that reads them
-    "docs/python.md": ("tests/apps/python/CMakeLists.txt", {"python"}),
-    "docs/python_first_hour.md": ("tests/apps/python/CMakeLists.txt", {"python"}),
-    "docs/library.md": ("tests/apps/package/installed_test.py", {"cpp", "cmake"}),
-    "docs/how_to": ("tests/site/how_to_test.py", {"cpp", "diff"}),
+    "docs/reference/python.md": ("tests/apps/python/CMakeLists.txt", {"python"}),
+    "docs/how_to/python_first_hour.md": ("tests/apps/python/CMakeLists.txt", {"python"}),
+    "docs/reference/library.md": ("tests/apps/package/installed_test.py", {"cpp", "cmake"}),
+    "docs/develop": ("tests/site/how_to_test.py", {"cpp", "diff"}),
 }
 
 
@@ -195,12 +195,12 @@ def wrong_scene(body, before, runs, gestell):
 
 
 def check_gallery():
-    """docs/gallery.md against apps/scenes and the pictures, which may not grow beyond 2 MB."""
-    page, pictures = pages.text_of("docs/gallery.md"), pages.SOURCES / "docs/images/gallery"
+    """docs/reference/gallery.md against apps/scenes and the pictures, which may not grow beyond 2 MB."""
+    page, pictures = pages.text_of("docs/reference/gallery.md"), pages.SOURCES / "docs/images/gallery"
     scenes = sorted(path.stem for path in (pages.SOURCES / "apps/scenes").glob("*.toml"))
-    wrong = [f"gallery: no {what}" for name in scenes for what in (f"(images/gallery/{name}.png)", f"gestell run apps/scenes/{name}.toml") if what not in page]
+    wrong = [f"gallery: no {what}" for name in scenes for what in (f"(../images/gallery/{name}.png)", f"gestell run apps/scenes/{name}.toml") if what not in page]
     wrong += [f"gallery: no picture {name}.png" for name in scenes if not (pictures / f"{name}.png").is_file()]
-    shown = re.findall(r"\(images/gallery/(\w+)\.png\)", page)
+    shown = re.findall(r"\(\.\./images/gallery/(\w+)\.png\)", page)
     wrong += [f"gallery: there is no scene {name}" for name in {*shown, *(path.stem for path in pictures.glob("*.png"))} - set(scenes)]
     size = sum(path.stat().st_size for path in pictures.iterdir())
     if size > 2e6:
