@@ -23,7 +23,7 @@ std::string rows(const std::vector<Key> &keys)
 {
   if (keys.empty())
     return "";
-  std::string text = "| key | | takes | default |\n|---|---|---|---|\n";
+  std::string text = "| Key | Description | Type / unit | Default |\n|---|---|---|---|\n";
   for (const Key &key : keys)
     text += "| `" + key.name + "` | " + key.meaning + " | " + taken_by(key) + " | " + default_of(key) + " |\n";
   return text + "\n";
@@ -38,7 +38,8 @@ std::string family_of(const DeclaredTable &table)
 bool is_shared(const Key &key, const KeyGroup &group)
 {
   const Key *shared = find_key(group.keys, key.name);
-  return group.of.empty() && shared && shared->meaning == key.meaning;
+  return group.of.empty() && shared && shared->meaning == key.meaning && default_of(*shared) == default_of(key) &&
+         taken_by(*shared) == taken_by(key);
 }
 
 /// "#contact", as links of Markdown go to a title.
@@ -61,8 +62,10 @@ std::string section(const DeclaredTable &table)
         std::stable_partition(own.begin(), own.end(), [&](const Key &key) { return !is_shared(key, group); });
     if (shared == own.end())
       continue;
+    const bool all = static_cast<std::size_t>(own.end() - shared) == group.keys.size();
+    text += std::string(all ? " Keys of [" : " Also " + names_of({shared, own.end()}) + " of [") + group.title + "](" +
+            anchor(group.title) + ").";
     own.erase(shared, own.end());
-    text += " Keys of [" + group.title + "](" + anchor(group.title) + ").";
   }
   own.erase(
       std::remove_if(own.begin(), own.end(), [&](const Key &key) { return !table.type.empty() && key.name == "type"; }),
@@ -115,7 +118,7 @@ std::string generated(const std::string &marker)
   if (marker == "result files")
     return result_files_table();
   if (marker == "members: summary.json")
-    return "| member | | unit | content |\n|---|---|---|---|\n" + summary_members(result_of_all_kinds());
+    return "| Member | Description | Unit | Content |\n|---|---|---|---|\n" + summary_members(result_of_all_kinds());
   if (marker.rfind(keys, 0) != 0)
     throw std::invalid_argument("the marker '" + marker +
                                 "' is not known; there are 'keys: TABLE', 'members: summary.json' and 'result files'");
@@ -142,7 +145,7 @@ std::string renewed(const std::string &document)
 
 void renew_reference(const std::string &docs)
 {
-  const std::filesystem::path        folder = docs;
+  const std::filesystem::path folder = docs;
   if (!std::filesystem::is_directory(folder / "reference"))
     throw std::invalid_argument("--renew: " + docs + " has no folder reference; name the folder docs of the sources");
   for (const auto &entry : std::filesystem::recursive_directory_iterator(folder / "reference"))

@@ -266,20 +266,21 @@ std::vector<Key> order_keys()
   const ProfileKeys level = level_profile(kind::number, "1"), speed = path_profile();
   const auto        limit = [](const std::string &name, const Kind &kind, const std::string &meaning)
   { return key::number(name, kind, meaning).above_zero().by_default("a jump"); };
-  return {key::plain("tell", Key::Form::texts, "name of an element or joint, or several").by_default("`orders`"),
-          key::plain("order", Key::Form::text,
-                     "the command: `\"on\"`, `\"off\"`, `\"set\"`, `\"brake\"`, `\"hold\"`, `\"start\"`")
-              .by_default("`orders`"),
-          key::plain("to", Key::Form::quantity, "of `\"set\"`: the level").by_default("demanded of `\"set\"`"),
-          limit("rate", level.rate, "largest rate of the way to the level, in its unit"),
-          limit("rate_of_rate", level.rate_of_rate, "largest rate of the rate"),
-          limit("acceleration", speed.rate, "of a speed").on_angle(speed_profile().rate),
-          limit("jerk", speed.rate_of_rate, "of a speed").on_angle(speed_profile().rate_of_rate)};
+  return {
+      key::plain("tell", Key::Form::texts, "target: name of an element or joint, or several").by_default("`orders`"),
+      key::plain("order", Key::Form::text,
+                 "the command: `\"on\"`, `\"off\"`, `\"set\"`, `\"brake\"`, `\"hold\"`, `\"start\"`")
+          .by_default("`orders`"),
+      key::plain("to", Key::Form::quantity, "level for `\"set\"`").by_default("required for `\"set\"`"),
+      limit("rate", level.rate, "largest rate of change towards the level, in its unit"),
+      limit("rate_of_rate", level.rate_of_rate, "largest rate of change of the rate"),
+      limit("acceleration", speed.rate, "largest acceleration, for a speed").on_angle(speed_profile().rate),
+      limit("jerk", speed.rate_of_rate, "largest jerk, for a speed").on_angle(speed_profile().rate_of_rate)};
 }
 
 Key crossing_key(const std::string &name, const std::string &meaning)
 {
-  return key::plain(name, Key::Form::quantity, meaning).by_default("one of the three");
+  return key::plain(name, Key::Form::quantity, meaning).by_default("one of the three is required");
 }
 
 } // namespace
@@ -287,29 +288,31 @@ Key crossing_key(const std::string &name, const std::string &meaning)
 const std::vector<Key> &switch_keys()
 {
   static const std::vector<Key> keys = joined(
-      {{key::plain("when", Key::Form::text, "a signal, or `\"t\"`, the time"),
-        crossing_key("above", "value, with its unit, above which the signal rises; thrown at once where it lies "
-                              "above when the switch begins to watch"),
-        crossing_key("below", "value below which it falls, likewise"),
-        crossing_key("crosses",
-                     "value that it crosses either way; it must come from the side on which it lies at first")},
+      {{key::plain("when", Key::Form::text, "signal, or `\"t\"`, the time"),
+        crossing_key("above", "threshold, with its unit, that the signal exceeds; the switch triggers at once if the "
+                              "signal is already above it when the switch is armed"),
+        crossing_key("below", "threshold below which the signal falls; the switch triggers at once if the signal is "
+                              "already below it when the switch is armed"),
+        crossing_key(
+            "crosses",
+            "threshold that the signal crosses in either direction, starting from its side when the switch is armed")},
        order_keys(),
        {key::composed("orders", Key::Form::tables, kind::number, order_keys(),
-                      "several orders at the same instant: `[{ tell = \"motor\", order = \"off\" }, { tell = "
+                      "several commands at the same instant: `[{ tell = \"motor\", order = \"off\" }, { tell = "
                       "\"brake\", order = \"on\" }]`")
             .by_default("`tell` and `order`"),
-        key::plain("ends", Key::Form::text,
-                   "the run ends at the orders with this statement, such as `\"the crane tips\"`, and exit code 3; "
-                   "what was computed is kept")
-            .by_default("it goes on"),
-        key::number("delay", kind::time, "from the crossing to the orders")
+        key::plain(
+            "ends", Key::Form::text,
+            "ends the run with this statement, such as `\"the crane tips\"`, and exit code 3; results so far are kept")
+            .by_default("the run continues"),
+        key::number("delay", kind::time, "delay from the crossing to the command")
             .from_zero()
             .by_default(&coupling::Switch::delay),
-        key::named("after", "switch from whose orders on it watches").by_default("always"),
-        key::truth("repeat", false, "thrown every time").into(&coupling::Switch::repeat),
+        key::named("after", "switch whose command arms this one").by_default("always"),
+        key::truth("repeat", false, "trigger at every crossing").into(&coupling::Switch::repeat),
         key::plain("hysteresis", Key::Form::quantity,
-                   "with `repeat`: by so much the signal must first come back, or with `crosses` go away from "
-                   "the value to either side")
+                   "with `repeat`: the signal must first return past the threshold by this amount, or with `crosses` "
+                   "move away from it in either direction")
             .by_default(0.)}});
   return keys;
 }
