@@ -189,7 +189,7 @@ void require_archive(const std::filesystem::path &file)
   if (std::filesystem::exists(std::filesystem::symlink_status(file, none)) &&
       !(in.read(begin, 2) && begin[0] == 'P' && begin[1] == 'K'))
     throw std::invalid_argument("--fmu: " + file.string() +
-                                " is there already and is no FMU, so that it is not replaced; give another name");
+                                " already exists and is not an FMU, so that it is not replaced; give another name");
 }
 
 int export_scene(const CommonOptions &options, const ExportOptions &requested)

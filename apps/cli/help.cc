@@ -47,7 +47,7 @@ Command help_command()
           CommandInput::none,
           {CommandOption{"KEY", &own->topic, "table or key (default: the list of tables)"}.proposing(tables()),
            {"--schema", &own->schema, "JSON schema of scenes, for editors, instead"},
-           {"--renew", &own->docs, "write schema and tables of keys in this folder of documents anew, instead"}},
+           {"--renew", &own->docs, "only regenerate schema and tables of keys in this folder of documents"}},
           [own](const CommonOptions &) { return help(*own); }};
 }
 

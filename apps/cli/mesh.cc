@@ -182,7 +182,7 @@ void write_faces(const std::filesystem::path &folder, const coupling::MeshReport
   const std::string warning = write_face_surface(own.claim("faces.vtp"), report);
   if (!warning.empty())
     std::cerr << "gestell: warning: " << warning << '\n';
-  std::cout << "faces to see and to click: " << (folder / "faces.html").string()
+  std::cout << "interactive 3-D view of the faces: " << (folder / "faces.html").string()
             << (warning.empty() ? ", for ParaView: " + (folder / "faces.vtp").string() : "") << '\n';
 }
 
@@ -231,12 +231,12 @@ Command mesh_command()
       "mesh a CAD file; report its quality, surfaces and solids",
       {"gestell mesh meshes/press_frame.step --size '80 mm'", "gestell mesh meshes/press_frame.step -o results/faces"},
       CommandInput::cad,
-      {{"-o,--output", &own->folder, "folder for faces.html, a page of all faces to see and to click, and faces.vtp"},
+      {{"-o,--output", &own->folder, "folder for faces.html, an interactive 3-D view of all faces, and faces.vtp"},
        {"--size", &own->size, "element size, such as \"80 mm\""},
        {"--unit", &own->unit, "length unit of a file without one, such as \"1 mm\""},
        CommandOption{"--max-cells", &own->max_cells, "refuse a mesh of more elements"}.above_zero(),
        {"--gap", &own->gap, "join solids at most that far apart, such as \"0.1 mm\""},
-       CommandOption{"--bodies", &own->bodies, "number of bodies expected that do not hang together"}.above_zero(),
+       CommandOption{"--bodies", &own->bodies, "number of expected number of separate bodies"}.above_zero(),
        CommandOption{"--overlaps", &own->overlaps, "refused, or once: a common part of solids belongs to the first"}
            .one_of({"refused", "once"}),
        CommandOption{"--plates", &own->plates, "tetrahedra, or swept: hexahedra through the thickness of walls"}.one_of(

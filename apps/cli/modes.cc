@@ -61,8 +61,8 @@ void print_poles(const std::vector<coupling::Pole> &poles)
 {
   if (poles.empty())
     return;
-  std::cout << "with drives and controllers, at the speeds of the start\n"
-               "  damped frequency [Hz]   damping ratio       real part [1/s]   moves most\n";
+  std::cout << "with drives and controllers, at the speeds of the start\n  damped frequency [Hz]   damping ratio       "
+               "real part [1/s]   dominant DOF\n";
   for (const coupling::Pole &pole : poles)
     std::cout << std::setw(23) << (pole.vibrates() ? short_text(pole.frequency_hz(), 6) : "-") << std::setw(16)
               << (pole.vibrates() ? short_text(pole.damping_ratio()) : "-") << std::setw(22)
@@ -95,8 +95,7 @@ void print_coupled_modes(const Result &result)
     std::cout << "coupled machine: the modes of the frame, nothing changes them\n";
     return;
   }
-  print_modes("coupled machine", result.coupled_modes, "free motion: nothing elastic holds it",
-              result.model.frequency_limit);
+  print_modes("coupled machine", result.coupled_modes, "rigid-body mode: no stiffness", result.model.frequency_limit);
   print_energies(result);
 }
 

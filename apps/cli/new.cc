@@ -49,7 +49,7 @@ void require_free(const std::filesystem::path &file)
 {
   if (fem::names_something(file) || std::filesystem::is_symlink(std::filesystem::symlink_status(file)))
     throw std::invalid_argument(
-        file.string() + " is there already and stays as it is; give another name: " + "gestell new KIND other.toml");
+        file.string() + " already exists and is left unchanged; give another name: " + "gestell new KIND other.toml");
 }
 
 int make_new(const NewOptions &options)

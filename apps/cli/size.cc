@@ -114,14 +114,14 @@ Command size_command()
       "find the smallest mesh, number of modes and integration that keep the outputs within a tolerance",
       {"gestell size apps/scenes/press.toml --tolerance 0.01 --outputs F_P.max,F_P.min"},
       CommandInput::scene,
-      {{"--tolerance", &requested->tolerance, "relative error that each output may have, 1e-8 to 1 (demanded)",
+      {{"--tolerance", &requested->tolerance, "relative error that each output may have, 1e-8 to 1 (required)",
         CommandOption::Range::above_zero},
        {"--outputs", &requested->outputs,
         "that count, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)"},
        {"--max-cpu", &requested->max_cpu, "[s] that a model may take, from CAD to the end of the run",
         CommandOption::Range::above_zero},
        {"--exhaustive", &requested->exhaustive,
-        "try every model up to one rung finer than the chosen one, too, to show what the search has missed"},
+        "try every model up to one level finer than the chosen one, too, to show what the search has missed"},
        {"--max-memory", &requested->max_memory_gb, "[GB] that the program may take", CommandOption::Range::above_zero}},
       [requested](const CommonOptions &options) { return size_scene(options, *requested); }};
 }

@@ -39,7 +39,7 @@ void require_atlas(const std::filesystem::path &file, const std::filesystem::pat
   if (there ? heading != "# Failure atlas" : std::filesystem::exists(std::filesystem::symlink_status(figures)))
     throw std::invalid_argument(
         "--atlas: " + (there ? file : figures).string() +
-        " is there already and is no failure atlas, so that it is not replaced; give another name");
+        " already exists and is not a failure atlas, so that it is not replaced; give another name");
 }
 
 /// Writes the failure atlas to `file` (Markdown) and its figures into a folder next to it; returns an ExitCode.

@@ -193,14 +193,13 @@ Command verify_command()
   const auto own = std::make_shared<VerifyOptions>();
   return {
       "verify",
-      "compute reference cases anew and set them beside what is expected",
+      "compute reference cases and compare them with expected values",
       {"gestell verify --all", "gestell verify my_cases.toml", "gestell verify \"rod force after the cutting shock\""},
       CommandInput::none,
-      {{"CASE", &own->cases,
-        "files of cases (.toml), or names of cases and files shipped (default: all but long ones)"},
+      {{"CASE", &own->cases, "case files (.toml), or names of shipped cases and files (default: all except long ones)"},
        {"-o,--output", &own->folder, "folder for the manual (default results/verification)"},
-       {"--all", &own->all, "long cases, too"},
-       {"--list", &own->list, "name the cases, instead"},
+       {"--all", &own->all, "include long cases"},
+       {"--list", &own->list, "only list the cases"},
        {"--renew", &own->docs, "also write trust/verification.md in this folder of documents"}},
       [own](const CommonOptions &) { return verify(*own); }};
 }

@@ -110,7 +110,7 @@ void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
   command
       .add_option("--set", options.overrides,
                   study ? "override an entry of the study or of its scene: key.path=value"
-                        : "override an entry of the scene: key.path=value")
+                        : "override a scene key: key.path=value")
       ->allow_extra_args(false);
 }
 
@@ -190,7 +190,7 @@ std::invalid_argument refused(const CLI::App &program, const std::string &why)
   const bool        known = !program.get_subcommands().empty();
   const std::string name  = known ? program.get_subcommands().front()->get_name() : "";
   return std::invalid_argument((known ? name + ": " : "") + why + "; gestell " + (known ? name + ' ' : "") +
-                               "--help tells what it takes");
+                               "--help lists its arguments");
 }
 
 std::invalid_argument unexpected(const CLI::App &program)
@@ -201,10 +201,10 @@ std::invalid_argument unexpected(const CLI::App &program)
   for (const CLI::Option *option : command->get_options())
     for (const std::string &name : option->get_lnames())
       options.push_back("--" + name);
-  return std::invalid_argument(command->get_name() + ": " +
-                               (word.front() == '-'
-                                    ? "there is no option " + word + suggestion(word, options)
-                                    : "'" + word + "' is one input too many; names with spaces stand in quotes"));
+  return std::invalid_argument(
+      command->get_name() + ": " +
+      (word.front() == '-' ? "there is no option " + word + suggestion(word, options)
+                           : "'" + word + "' is an unexpected extra argument; names with spaces stand in quotes"));
 }
 
 } // namespace gestell::apps

@@ -247,7 +247,7 @@ std::string verification_page(const Verification &all)
 std::string verification_document(const Verification &all)
 {
   std::string text =
-      "# Verification\n\nReference cases shipped with the program, computed anew by `gestell verify --all`: " +
+      "# Verification\n\nReference cases shipped with the program, computed by `gestell verify --all`: " +
       verdict_text(all) +
       ".\nExpected values come from closed forms or from independent computations, never from Gestell. Of a table the "
       "pair of numbers\nstands here that uses most of what is allowed.\n"

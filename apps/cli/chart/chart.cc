@@ -413,7 +413,7 @@ Command chart_command()
        CommandOption{"--modes", &own->modes, "numbers of modes of the reduced frame, such as 10,20,50"}.above_zero(),
        CommandOption{"--reference", &own->reference, "table of the true motion (CSV) instead of an own fine run"}
            .existing_file(),
-       CommandOption{"--events", &own->events, "on: located, off: passed over, both (default)"}.one_of(
+       CommandOption{"--events", &own->events, "on: located, off: detected after the step, both (default)"}.one_of(
            {"on", "off", "both"}),
        {"--peers,!--no-peers", &own->peers, "general-purpose integrators as well (default)"},
        {"--native-vectors", &own->native, "peers with vector arithmetic compiled for this processor"},

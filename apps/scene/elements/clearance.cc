@@ -33,12 +33,12 @@ ElementType clearance_type()
                        .from_zero()
                        .into(&Clearance::Parameters::gap)}}),
           read_gap,
-          {R"toml(from      = "flywheel"               # claws with 0.2 degrees of play to either side
+          {R"toml(from      = "flywheel"               # claws with 0.2 degrees of play in both directions
 to        = "crank"
 gap       = "0.2 deg"
 stiffness = "1e6 N m/rad"
 )toml",
-           R"toml(from         = "spindle"               # axial play of 50 um to either side
+           R"toml(from         = "spindle"               # axial play of 50 um in both directions
 direction    = [1, 0, 0]
 gap          = "50 um"
 stiffness    = "200 kN/mm"

@@ -46,7 +46,7 @@ void read_contact_point(const SceneTable &table, const Names &names, Scene &scen
 {
   for (const char *key : {"at_from", "at_to"})
     if (table.has(key))
-      throw table.error(key, "is no key of a contact: the point of `from` is `at`, a point of the plane `through`");
+      throw table.error(key, "is not a key of a contact: the point of `from` is `at`, a point of the plane `through`");
   const PlaceRequest point = names.place(table, "from");
   PlaceRequest       plane = names.place(table, "to", "through", "ground");
   check_two_bodies(table, point, plane);
@@ -54,7 +54,7 @@ void read_contact_point(const SceneTable &table, const Names &names, Scene &scen
   if (!plane.at)
     plane.at = point.at;
   if (!plane.at)
-    throw table.error("needs 'through', a point of the plane in the position the scene describes");
+    throw table.error("needs 'through', a point of the plane in the reference configuration");
   PointContact::Parameters contact{read_contact(table, false), read_sliding_friction(table)};
   contact.normal.stops = Clearance::Stops::below;
   add_point(scene, table, table.name(), point_on_plane(plane, point, normal), contact);
@@ -66,7 +66,7 @@ void read_guide_with_play(const SceneTable &table, const Names &names, Scene &sc
   const PlaceRequest guide{names.marker(table, "from"), {}}, slide = names.place(table, "to");
   check_two_bodies(table, guide, slide);
   if (!slide.at)
-    throw table.error("needs 'at', the middle of the slide in the position the scene describes");
+    throw table.error("needs 'at', the centre of the slide in the reference configuration");
   const Vector3 axis = table.direction("axis"), normal = table.direction("normal");
   if (std::abs(axis[0] * normal[0] + axis[1] * normal[1] + axis[2] * normal[2]) > 1e-9)
     throw table.error("normal", "must be at right angles to 'axis': the play lies across the guide");

@@ -184,7 +184,7 @@ ElementType brake_type()
           "`force`, `rate`",
           brake_keys(),
           read_brake,
-          {R"toml(from            = "crank"             # engaged within 50 ms at 3 s, let go at 5 s
+          {R"toml(from            = "crank"             # engaged within 50 ms at 3 s, released at 5 s
 capacity        = "800 N m"
 static_capacity = "1 kN m"
 engagement      = [{ at = "3 s", to = 1, rate = "20/s" }, { at = "5 s", to = 0 }]

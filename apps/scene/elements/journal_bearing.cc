@@ -33,7 +33,7 @@ PairRequest read_bearing(const SceneTable &table, const Names &names)
   if (pair.from.marker == pair.to.marker)
     throw table.error("to", "lies on '" + pair.to.marker + "' like `from`; a bearing holds one body in another");
   if (!pair.from.at && !pair.to.at)
-    throw table.error("needs 'at', the middle of the bearing in the position the scene describes");
+    throw table.error("needs 'at', the centre of the bearing in the reference configuration");
   if (!pair.to.at)
     pair.to.at = pair.from.at;
   if (!pair.from.at)

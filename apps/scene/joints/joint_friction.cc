@@ -152,12 +152,10 @@ coupling::Measure constant_motion(const Pair &pair, const RubbingMotion &rubbing
   using coupling::operator+, coupling::operator*; // a Measure is a plain vector, so the namespace does not tell
   const bool constant = rubbing.turns ? !pair.in_space() : !turns_far(pair.on_first) || !turns_far(pair.on_second);
   if (!constant)
-    throw std::invalid_argument(
-        rubbing.turns
-            ? "has friction of law \"dry\", which can hold planar bodies and rotors, but not a body that turns "
-              "freely in space; use \"lugre\", or \"smooth\""
-            : "has friction of law \"dry\", which can hold a slide on what does not turn, but here both bodies turn; "
-              "use \"lugre\", or \"smooth\"");
+    throw std::invalid_argument(rubbing.turns ? "has friction of law \"dry\", which can stop planar bodies and rotors, "
+                                                "but not a free spatial body; use \"lugre\", or \"smooth\""
+                                              : "has friction of law \"dry\", which needs a body that does not rotate, "
+                                                "but here both bodies rotate; use \"lugre\", or \"smooth\"");
   const double      zero[mechanism::PlacedMeasure::max_measures] = {};
   double            gradient[mechanism::PlacedMeasure::max_measures];
   coupling::Measure u;

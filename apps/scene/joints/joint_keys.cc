@@ -74,7 +74,7 @@ void read_one_point(const SceneTable &table, const Names &names, JointRequest &j
 {
   read_joined_places(table, names, joint);
   if (!joint.from.at)
-    throw table.error("needs 'at', the point of the joint in the position the scene describes");
+    throw table.error("needs 'at', the point of the joint in the reference configuration");
 }
 
 bool turns_about_own_axis(const BodyRequest *body)

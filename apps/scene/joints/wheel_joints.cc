@@ -81,7 +81,7 @@ MotionMeasure read_wheel_and_way(const SceneTable &table, const Names &names, Jo
   const BodyRequest *wheel = names.find_body(joint.from.marker);
   if (!turns_about_own_axis(wheel))
     throw table.error("from", "'" + joint.from.marker +
-                                  "' is no rotor or planar body; one that turns about its axis is needed here");
+                                  "' is not a rotor or planar body; this joint needs one that rotates about its axis");
   if (std::abs(dot(joint.axis, wheel->axis)) > 1e-9)
     throw table.error("direction", "must be at right angles to the axis of '" + joint.from.marker + "'");
   if (!moves_along(names, joint.from.marker, joint.axis) && !moves_along(names, joint.to.marker, joint.axis))

@@ -260,15 +260,15 @@ void read_output(const SceneTable &scene, Scene &result)
     {
       for (const SignalRequest &other : result.signals)
         if (other.name == path)
-          throw table.error("signals", "'" + path + "' stands in the list twice");
+          throw table.error("signals", "'" + path + "' is in the list twice");
       result.signals.push_back({path, path, table.place("signals"), ""});
     }
   else if (const auto signals = table.optional_table("signals"))
     for (const auto &name : signals->keys())
     {
       if (name.empty() || name.find_first_of(",\"\n[]") != std::string::npos || name == "t")
-        throw signals->error(name, "is no name for a signal: it heads a column of history.csv, so it must not be 't' "
-                                   "or contain commas, quotes or brackets");
+        throw signals->error(name, "is not a valid name for a signal: it heads a column of history.csv, so it must not "
+                                   "be 't' or contain commas, quotes or brackets");
       if (!signals->is_table(name))
       {
         result.signals.push_back({name, signals->text(name), signals->place(name), ""});

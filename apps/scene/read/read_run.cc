@@ -192,7 +192,7 @@ const std::vector<Key> &run_keys()
        {key::truth("force_unstable", run.force_unstable, "run although a mode grows with this method and step")
             .into(&Run::force_unstable),
         key::plain("max_halvings", Key::Form::whole,
-                   "maximum number of halvings of a step whose Newton iteration fails, 0 to 40")
+                   "maximum number of step halvings after a failed Newton iteration, 0 to 40")
             .by_default(&Method::max_halvings),
         key::number("newton_tolerance", kind::number,
                     "relative tolerance of the Newton iteration, at least 1e-13; `bdf` with a `tolerance` chooses its "

@@ -85,7 +85,8 @@ void check_known(const SceneTable &table, const ElementRequest &element, const s
 {
   const auto known = command_names(*element.element);
   if (std::find(known.begin(), known.end(), order) == known.end())
-    throw table.error("order", "'" + element.name + "' knows no order '" + order + "'; it obeys " + listed(known));
+    throw table.error("order", "'" + element.name + "' does not accept the command '" + order + "'; it accepts " +
+                                   listed(known));
 }
 
 /// Refuses things that obey no orders, with the reason.
@@ -96,10 +97,9 @@ void refuse_unmoved(const SceneTable &table, const std::string &name, const std:
       throw table.error("tell", "'" + name + "' is a mass, which cannot be switched");
   for (const JointRequest &joint : scene.joints)
     if (joint.name == name && (order == "on" || order == "off"))
-      throw table.error(
-          "order",
-          "'" + name + "' is " + (joint.compliance ? "a compliant" : "an ideal") +
-              " joint, which always holds; where it shall let go, use a \"clutch\" or a \"spring-damper\" instead");
+      throw table.error("order",
+                        "'" + name + "' is " + (joint.compliance ? "a compliant" : "an ideal") +
+                            " joint, which cannot be released; use a \"clutch\" or a \"spring-damper\" instead");
 }
 
 /// A name that no element has must be that of a joint whose motion obeys the order.
@@ -110,11 +110,12 @@ void check_joint(const SceneTable &table, const std::string &name, const std::st
   for (const JointRequest &joint : scene.joints)
   {
     if (joint.name == name && !joint.law)
-      throw table.error("tell", "'" + name + "' is a joint without a 'motion', which obeys no orders");
+      throw table.error("tell", "'" + name + "' is a joint without a 'motion', which accepts no commands");
     if (joint.name == name && !knows(joint.law->commands()))
-      throw table.error("order", "the motion of '" + name + "' knows no order '" + order +
-                                     (joint.law->commands().empty() ? "'; it obeys none, only motions at a 'speed' do"
-                                                                    : "'; it obeys " + listed(joint.law->commands())));
+      throw table.error("order",
+                        "the motion of '" + name + "' does not accept the command '" + order +
+                            (joint.law->commands().empty() ? "'; only motions with a 'speed' accept commands"
+                                                           : "'; it accepts " + listed(joint.law->commands())));
     if (joint.name == name)
       return;
     if (joint.law && knows(joint.law->commands()))
@@ -132,7 +133,7 @@ void check_joint(const SceneTable &table, const std::string &name, const std::st
       obeying.push_back(spring.name);
   throw table.error("tell",
                     "there is no element or joint '" + name + "'" +
-                        (obeying.empty() ? ", and nothing that obeys '" + order + "'" : suggestion(name, obeying)));
+                        (obeying.empty() ? ", and nothing that accepts '" + order + "'" : suggestion(name, obeying)));
 }
 
 std::vector<coupling::SwitchOrder> read_order(const SceneTable &table, Scene &scene)
@@ -191,7 +192,7 @@ void read_crossing(const SceneTable &table, SwitchRequest &own)
       own.request.crossing = crossing;
     }
   if (given.empty())
-    throw table.error("needs 'above', 'below' or 'crosses', the value at which it is thrown");
+    throw table.error("needs 'above', 'below' or 'crosses', the threshold at which it triggers");
   own.level         = table.quantity(given);
   own.request.level = own.level.value;
 }
@@ -215,7 +216,7 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
     if (!own.request.repeat)
       throw table.error(
           "hysteresis",
-          "is how far the signal comes back before the switch is thrown again; it goes with repeat = true");
+          "is the distance that the signal must return before the switch triggers again; it needs repeat = true");
     if (own.request.hysteresis < 0.)
       throw table.error("hysteresis", "needs a value of zero or more");
   }
@@ -223,8 +224,7 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
     throw table.error("orders", "says the same as 'tell' and 'order'; give one of them");
   own.request.ends = table.text("ends", "");
   if (table.has("ends") && own.request.ends.empty())
-    throw table.error("ends",
-                      "is empty; say what it means that the signal has passed the value, such as \"the crane tips\"");
+    throw table.error("ends", "is empty; state what the crossing means, such as \"the crane tips\"");
   const bool only_ends = table.has("ends") && !table.has("tell") && !table.has("order") && !table.has("orders");
   if (!table.has("orders") && !only_ends)
     own.request.orders = read_order(table, scene);
@@ -232,7 +232,7 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
     for (const auto &order : read_order(part, scene))
       own.request.orders.push_back(order);
   if (own.request.orders.empty() && !only_ends)
-    throw table.error("orders", "is empty; give orders such as [{ tell = \"motor\", order = \"off\" }]");
+    throw table.error("orders", "is empty; give commands such as [{ tell = \"motor\", order = \"off\" }]");
   return own;
 }
 
@@ -252,7 +252,7 @@ void check_chain(const SceneTable &table, const std::vector<SwitchRequest> &swit
     if (name.empty())
       return;
   }
-  throw table.error("after", "the switches wait for each other in a circle, so that none would ever watch");
+  throw table.error("after", "the switches wait for each other in a circle, so that none would ever be armed");
 }
 
 } // namespace

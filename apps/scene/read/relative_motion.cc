@@ -44,8 +44,8 @@ std::string stator_of(const SceneTable &table, const Names &names, const BodyReq
     throw table.error("to", "'" + stator + "' is a point, which has no rotation; name what else holds the motor");
   if (body && body->kind == coupling::BodyKind::rigid)
     throw table.error("to", "'" + stator +
-                                "' is a rigid body, whose angle is no coordinate; put a rotor between, which a joint "
-                                "of type \"rigid\" holds to it");
+                                "' is a rigid body, whose angle is not a coordinate; add a rotor and connect it to the "
+                                "body by a joint of type \"rigid\"");
   return stator;
 }
 
