@@ -125,9 +125,9 @@ std::string hint_of_repetition(const std::string &line, const std::string &reaso
       reason.find(" as dotted") != std::string::npos)
     return name + ": the same name stands above for another value (" + type + "); it cannot be a table as well";
   if (type == "table")
-    return head ? "[" + name + "] is in the file twice; put all its keys under one head"
+    return head ? "[" + name + "] is defined twice in the file; put all its keys under one heading"
                 : "'" + name + "' is already a table above";
-  return "the key '" + name + "' is twice in this table; leave one of the two out";
+  return "the key '" + name + "' is defined twice in this table; remove one of them";
 }
 
 /// Hint from the reason only, if the line itself gives none.

@@ -106,7 +106,7 @@ const std::vector<Mistake> of_the_press = {
     {"CommaInText", {{"\"80 mm\"", "\"0,08 m\""}}, {"0,08 m", "write 0.08"}},
     {"CommaInANumber", {{"s_K     = 0.15", "s_K = 0,15"}}, {"decimals have a point: 0.15"}},
     {"PercentWithoutQuotes", {{"s_K     = 0.15", "s_K = 15%"}}, {"in quotes: \"15%\""}},
-    {"DuplicateKey", {{"order  = 2", "order  = 2\norder = 3"}}, {"'order' stands twice", "leave one"}},
+    {"DuplicateKey", {{"order  = 2", "order  = 2\norder = 3"}}, {"'order' is defined twice", "remove one"}},
     {"DuplicateTable", {{"[output.signals]", "[run]\n[output.signals]"}}, {"[run] stands", "under one head"}},
     {"CyclicParameters",
      {{"\"80 mm\"", "\"l/10\""}, {"\"800 mm\"", "\"10*r\""}},

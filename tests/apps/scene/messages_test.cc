@@ -121,10 +121,10 @@ TEST(Messages, NamesWhatIsDefinedTwice)
   const auto expect = [](const std::string &text, int line, const std::string &hint)
   { expect_complaint(text, "scene.toml:" + std::to_string(line) + ": is not TOML here: " + hint); };
   expect("[element.\"crank pin\"]\nk = 1\n[element.\"crank pin\"]\nk = 2\n", 3,
-         "[element.\"crank pin\"] is in the file twice");
-  expect("[element.'rod']\nk = 1\n[element.'rod']\n", 3, "[element.'rod'] is in the file twice");
+         "[element.\"crank pin\"] is defined twice in the file");
+  expect("[element.'rod']\nk = 1\n[element.'rod']\n", 3, "[element.'rod'] is defined twice in the file");
   expect("[a.b]\nk = 1\n[[a.b]]\n", 3, "[a.b] is one table above");
-  expect("[body]\n\"x y\" = 1\n\"x y\" = 2\n", 3, "the key '\"x y\"' is twice in this table");
+  expect("[body]\n\"x y\" = 1\n\"x y\" = 2\n", 3, "the key '\"x y\"' is defined twice in this table");
   expect("frame = \"a\"\n[frame.mesh]\nsize = 1\n", 2, "frame.mesh: the same name stands above for another value");
   expect("[body.slide]\nmass = 1\n[body]\nslide = 3\n", 4, "'slide' is already a table above");
   expect("a = [1, 2", 1, "the file ends inside an array");
