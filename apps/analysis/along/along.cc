@@ -113,7 +113,7 @@ AnalysisEntry along_analysis()
       "along", "", {},
       {{"modes_along.csv", "frequencies and damping at each position, with `modes --along`",
         content_of<AlongResult, along_frequencies>},
-       {"modes_along_shapes.csv", "the shapes to them", along_shapes}},
+       {"modes_along_shapes.csv", "shapes of these modes", along_shapes}},
       "modes");
 }
 

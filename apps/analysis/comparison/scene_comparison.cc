@@ -146,8 +146,8 @@ AnalysisEntry compare_run_analysis()
       "compare",
       "",
       {},
-      {{"compared_run.csv", "extremes beside those of another scene's run, with `run --compare`", compared_run_file},
-       {"compared_history.csv", "the other run over time", content_of<ComparedRun, compared_history_csv>}},
+      {{"compared_run.csv", "extremes compared with those of another scene, with `run --compare`", compared_run_file},
+       {"compared_history.csv", "signals of the other run over time", content_of<ComparedRun, compared_history_csv>}},
       []
       {
         return std::make_unique<Compare>(
@@ -164,9 +164,9 @@ AnalysisEntry compare_modes_analysis()
   return {"compare",
           "",
           {},
-          {{"compared_modes.csv", "modes beside those of another scene, with `--compare`",
+          {{"compared_modes.csv", "modes compared with those of another scene, with `--compare`",
             content_of<ComparedShapes, compared_modes_csv>},
-           {"mac.csv", "how alike their shapes are, each with each", content_of<ComparedShapes, mac_csv>}},
+           {"mac.csv", "MAC matrix of their shapes", content_of<ComparedShapes, mac_csv>}},
           []
           {
             return std::make_unique<Compare>(

@@ -182,9 +182,9 @@ AnalysisEntry frf_analysis()
       {"gestell frf apps/scenes/press_minimal.toml --from frame.crown.uz --to frame.crown.uz,F_P"},
       {{"frf.csv", "frequency responses of the linearised machine, by `frf`",
         content_of<FrequencyResponse, frequency_response_csv>},
-       exported("state_space.mat", "that machine as x' = A x + B u, y = C x + D u, with `frf --export mat`"),
+       exported("state_space.mat", "linearised machine as x' = A x + B u, y = C x + D u, with `frf --export mat`"),
        exported("state_space_*.mtx", "the same, with `frf --export matrix-market`"),
-       exported("state_space.csv", "names of its states, inputs and outputs")});
+       exported("state_space.csv", "names of states, inputs and outputs")});
 }
 
 } // namespace gestell::apps

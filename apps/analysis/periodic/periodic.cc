@@ -289,13 +289,14 @@ AnalysisEntry periodic_analysis()
       "periodic", "periodic motions and their stability",
       {"gestell periodic apps/scenes/press.toml",
        "gestell periodic apps/scenes/press.toml --along parameters.s_cl --from \"0.1 mm\" --to \"0.6 mm\""},
-      {{"solutions.csv", "periodic motions with their stability and signals, of `periodic`", csv_of<solutions_csv>},
-       {"multipliers.csv", "their Floquet multipliers", csv_of<multipliers_csv>},
-       {"special_points.csv", "where they begin, end or change, with `periodic --along`", csv_of<special_points_csv>},
-       {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits_of},
-       {"section.csv", "a motion at the start of every period, where `periodic` follows it for long",
+      {{"solutions.csv", "periodic solutions with stability and signals, by `periodic`", csv_of<solutions_csv>},
+       {"multipliers.csv", "Floquet multipliers of these solutions", csv_of<multipliers_csv>},
+       {"special_points.csv", "points where solutions begin, end or change, with `periodic --along`",
+        csv_of<special_points_csv>},
+       {"orbit_*.csv", "one period of all signals, for each solution number", nullptr, "", "", orbits_of},
+       {"section.csv", "states at the start of every period, if `periodic` computes the long-term behaviour",
         csv_of<section_csv>},
-       {"basins.csv", "which start settles to which motion, with `periodic --basins`", csv_of<basins_csv>}});
+       {"basins.csv", "basins of attraction, with `periodic --basins`", csv_of<basins_csv>}});
   entry.motions = "periodic motions";
   return entry;
 }
