@@ -89,10 +89,10 @@ Command new_command()
 {
   const auto own = std::make_shared<NewOptions>();
   return {"new",
-          "write a scene to start from, with its frame",
+          "write a commented scene to start from, with its frame",
           {"gestell new press", "gestell new cam my_cam.toml"},
           CommandInput::none,
-          {CommandOption{"KIND", &own->kind, "of machine (default: the list of kinds)"}.proposing(kinds()),
+          {CommandOption{"KIND", &own->kind, "kind of machine (default: print the list of kinds)"}.proposing(kinds()),
            {"FILE", &own->file, "scene to write (default KIND.toml)"}},
           [own](const CommonOptions &) { return make_new(*own); }};
 }

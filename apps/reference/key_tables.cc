@@ -118,16 +118,17 @@ std::string generated(const std::string &marker)
   if (marker == "result files")
     return result_files_table();
   if (marker == "members: summary.json")
-    return "| Member | Description | Unit | Content |\n|---|---|---|---|\n" + summary_members(result_of_all_kinds());
+    return "| Member | Type | Unit | Description |\n|---|---|---|---|\n" + summary_members(result_of_all_kinds());
   if (marker.rfind(keys, 0) != 0)
     throw std::invalid_argument("the marker '" + marker +
-                                "' is not known; there are 'keys: TABLE', 'members: summary.json' and 'result files'");
+                                "' is not known; there are 'keys: TABLE', 'members: summary.json', 'result files' and "
+                                "'options'");
   return key_tables(marker.substr(keys.size()));
 }
 
 } // namespace
 
-std::string renewed(const std::string &document)
+std::string renewed(const std::string &document, const std::string &options)
 {
   const std::string begin = "<!-- ", closed = " -->\n", end = "<!-- end -->";
   std::string       text;
@@ -137,20 +138,24 @@ std::string renewed(const std::string &document)
     const auto name = from + begin.size(), head = document.find(closed, name), tail = document.find(end, name);
     if (head == std::string::npos || tail == std::string::npos)
       throw std::invalid_argument("a marker '" + begin + "' has no end");
-    text += document.substr(done, head + closed.size() - done) + generated(document.substr(name, head - name)) + end;
+    const std::string marker = document.substr(name, head - name);
+    const auto        body   = head + closed.size();
+    text += document.substr(done, body - done);
+    text += marker != "options" ? generated(marker) : options.empty() ? document.substr(body, tail - body) : options;
+    text += end;
     done = tail + end.size();
   }
   return text + document.substr(done);
 }
 
-void renew_reference(const std::string &docs)
+void renew_reference(const std::string &docs, const std::string &options)
 {
   const std::filesystem::path folder = docs;
   if (!std::filesystem::is_directory(folder / "reference"))
     throw std::invalid_argument("--renew: " + docs + " has no folder reference; name the folder docs of the sources");
   for (const auto &entry : std::filesystem::recursive_directory_iterator(folder / "reference"))
     if (entry.path().extension() == ".md")
-      if (const std::string document = content(entry.path()), now = renewed(document); now != document)
+      if (const std::string document = content(entry.path()), now = renewed(document, options); now != document)
         write_file(entry.path().string(), now);
   write_file((folder / "scene.schema.json").string(), json_schema());
   write_file((folder / "summary.schema.json").string(), summary_schema(result_of_all_kinds()));

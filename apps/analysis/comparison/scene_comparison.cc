@@ -150,10 +150,9 @@ AnalysisEntry compare_run_analysis()
        {"compared_history.csv", "signals of the other run over time", content_of<ComparedRun, compared_history_csv>}},
       []
       {
-        return std::make_unique<Compare>(
-            "another scene, which runs as it stands in its file: its signals in the same charts, extremes and modes "
-            "beside each other",
-            require_comparable_runs, add_compared_run);
+        return std::make_unique<Compare>("another scene, run without --set: its signals in the same charts, its "
+                                         "extremes and modes in the same tables",
+                                         require_comparable_runs, add_compared_run);
       },
       [] { return as_answer(ComparedRun()); },
       "run"};
@@ -170,7 +169,7 @@ AnalysisEntry compare_modes_analysis()
           []
           {
             return std::make_unique<Compare>(
-                "another scene, whose modes are matched with these by what both call by the same name",
+                "another scene, whose modes are matched with these by measures of the same name",
                 [](Session &, Session &) {}, add_compared_modes);
           },
           [] { return as_answer(ComparedShapes()); },
