@@ -147,7 +147,7 @@ std::vector<Key> parameter_keys()
   for (const IntegrationMethod *method : coupling::integration_methods())
     for (const MethodParameter &parameter : method->parameters())
     {
-      const std::string of = "of `" + method->name() + "`: " + parameter.meaning;
+      const std::string of = "for `" + method->name() + "`: " + parameter.meaning;
       if (parameter.choices.empty())
         keys.push_back(
             key::number(parameter.name, kind::number, of + ", " + parameter.range).by_default(parameter.fallback));
