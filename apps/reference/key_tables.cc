@@ -73,8 +73,10 @@ std::string section(const DeclaredTable &table)
   text += "\n\n" + rows(own);
   if (!table.signals.empty())
     text += "Signals: " + table.signals + ".\n\n";
-  for (const std::string &example : table.examples)
-    text += "```toml\ntype = \"" + table.type + "\"\n" + example + "```\n\n";
+  if (!table.examples.empty())
+    text += "```toml\ntype = \"" + table.type + "\"\n" + table.examples.front() + "```\n\n";
+  if (table.examples.size() > 1)
+    text += "More examples: `gestell help '" + table.path + "'`.\n\n";
   return text;
 }
 
