@@ -114,7 +114,7 @@ def check_lists(gestell):
         wrong += [f"{name}: {complaint}" for entry in entries for complaint in wrong_entry(entry)]
         if len(entries) > 15:
             wrong.append(f"{name} has become long")
-    wrong += unknown_languages() + dead_links() + wrong_scenes(gestell)
+    wrong += unknown_languages() + dead_links() + wrong_scenes(gestell) + outdated_tables(gestell)
     print(*wrong, sep="\n")
     return len(wrong)
 
@@ -157,6 +157,22 @@ def dead_links():
         for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", pages.FENCE.sub("", pages.text_of(page)))
         if "://" not in target and not (pages.SOURCES / page.parent / target).exists()
     ]
+
+
+def outdated_tables(gestell):
+    """Pages whose generated tables (keys, options, files, members) differ from those of the program."""
+    with tempfile.TemporaryDirectory() as name:
+        copy = pathlib.Path(name) / "docs"
+        shutil.copytree(pages.SOURCES / "docs", copy)
+        code, answer = answer_of(f"gestell help --renew {copy}", name, gestell)
+        if code != 0:
+            return [f"gestell help --renew: {answer}"]
+        paths = [path.relative_to(copy) for path in copy.rglob("*") if path.suffix in (".md", ".json")]
+        return [
+            f"docs/{path}: a generated table is outdated: gestell help --renew docs"
+            for path in paths
+            if (copy / path).read_bytes() != (pages.SOURCES / "docs" / path).read_bytes()
+        ]
 
 
 def is_part(part, whole):
