@@ -125,8 +125,8 @@ std::string keep_stable_step(double largest, double decay, RunRequest &run)
     const double     steps          = (run.options.end - run.options.begin) / method.step;
     constexpr double many_steps     = 1e7; // minutes of steps even of small machines: no wish, but stiff modes
     if (steps > many_steps)
-      text << "central differences take " << steps << " steps of " << method.step << " s, as the fastest motion of the "
-           << "modes kept asks for; keep fewer modes, or take method = \"exact\"";
+      text << "central differences take " << steps << " steps of " << method.step << " s, as the highest retained "
+           << "mode requires; retain fewer modes, or use method = \"exact\"";
     return text.str();
   }
   constexpr double kept_off_limit = 0.95; // share of 2 / omega_max, at which explicit steps lose their stability

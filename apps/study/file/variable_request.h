@@ -9,7 +9,7 @@
 namespace gestell::apps
 {
 
-/// An entry of the scene that a study varies, as its file tells it.
+/// A scene key that a study varies, as given in its file.
 struct VariableRequest
 {
   StudyVariable            variable;
@@ -26,10 +26,10 @@ struct VariableRequest
 };
 
 /// Takes the unit of a value for that of the variable, if it has none yet.
-/// @throws std::invalid_argument with the place of the value for what is no number, and for another unit
+/// @throws std::invalid_argument with the place of the value for a value that is not a number, and for another unit
 double in_unit(const SceneNode &value, StudyVariable &variable, const std::string &key);
 
-/// A number, with a unit behind it or not.
+/// A number, with or without a unit.
 bool starts_with_number(const SceneNode &value);
 
 } // namespace gestell::apps
