@@ -16,7 +16,7 @@ struct VariableRequest
   std::vector<std::string> keys{};    ///< all that take its value, variable.key the first
   std::vector<SceneNode>   choices{}; ///< of a variable with choices: what the words stand for
   std::string              place{};
-  std::string              folder{};  ///< where paths among its words start
+  std::string              folder{}; ///< where paths among its words start
 
   /// As a value of the scene is written: 900 kN/mm, linear, true.
   std::string text(double level) const { return variable.text(level); }
