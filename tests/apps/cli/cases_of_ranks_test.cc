@@ -72,8 +72,8 @@ TEST(CasesOfRanks, AreRefusedAsATeamWithTheWayOut)
     {
       const Cases  cases(n);
       const Answer answer = on_ranks(n, there ? cases.run_there() : cases.run());
-      const auto   others =
-          std::to_string(n - 1) + " of " + std::to_string(n) + " ranks were started with another command line or working";
+      const auto   others = std::to_string(n - 1) + " of " + std::to_string(n) +
+                          " ranks were started with another command line or working";
       expect_answer(answer, 2, {"gestell: mpirun: " + others, "--apart (or GESTELL_APART=1)"});
       EXPECT_EQ(count(answer.text, "gestell: "), 1) << answer.text;
       EXPECT_EQ(cases.n_done(), 0);

@@ -95,7 +95,8 @@ TEST(FmuExport, RefusesOddInputWithTheWayOut)
   refused(scene("press_minimal.toml") + " --inputs slid", {"--inputs slid", "there is no place 'slid'", "'slide'"});
   refused(scene("press_minimal.toml") + " --inputs frame.crwn.uz", {"frame.crwn", "crown"});
   refused(scene("press_minimal.toml") + " --inputs F_P=slide", {"scene.toml: 'F_P' is an input and a signal"});
-  refused(scene("press_minimal.toml") + " --set start.rule='periodic'", {"an FMU does not search for periodic motions"});
+  refused(scene("press_minimal.toml") + " --set start.rule='periodic'",
+          {"an FMU does not search for periodic motions"});
   refused(scene("press_minimal.toml") + " --set 'element.rod.length=60 mm'", {"element.rod"});
   refused(scene("press_minimal.toml") + " --inputs frame.crown.rx", {"acts on a motion that the machine has not"});
   refused(scene("press_minimal.toml") + " --inputs F=slide,F=crank", {"there is an input 'F' already"});

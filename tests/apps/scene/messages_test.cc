@@ -110,8 +110,7 @@ TEST(Messages, SaysWhatALineThatIsNoTomlShouldBe)
   expect("method = “abc”", "quotes are \" or ', not “");
   expect("k : 3", "a key and its value have = between them");
   expect("k = ", "a value is missing");
-  expect("[element.crank pin]",
-         "a name with more than letters, digits, _ and - needs quotes: [element.\"crank pin\"]");
+  expect("[element.crank pin]", "a name with more than letters, digits, _ and - needs quotes: [element.\"crank pin\"]");
   expect("crank pin = 3", "a key with more than letters, digits, _ and - needs quotes: \"crank pin\"");
   expect("k = \"abc", "a quote is opened here and not closed");
 }

@@ -381,7 +381,8 @@ TEST(Switches, RefuseWhatElementsCannotObey)
                              "motion = { speed = 1, brake = { family = \"linear\", duration = \"0.1 s\" } }\n";
   expect_complaint(slider(2., "1 s") + braked + at_time("feed brake", {{"jerk", "5"}}),
                    "takes neither an acceleration nor a jerk");
-  expect_complaint(slider(2., "1 s") + braked + at_time("feed hold"), "does not accept the command 'hold'; it accepts 'brake'");
+  expect_complaint(slider(2., "1 s") + braked + at_time("feed hold"),
+                   "does not accept the command 'hold'; it accepts 'brake'");
   // A name that is missing is mistaken for nothing that could not obey: a joint is never off.
   expect_complaint(slider(2., "1 s") + feed + push + at_time("feet off"),
                    "there is no element or joint 'feet'; valid: 'push'");
