@@ -179,17 +179,17 @@ std::string form_text(Key::Form form, const Key &key, const std::string &kinds)
   case Key::Form::direction:
     return "direction [x, y, z]";
   case Key::Form::vector:
-    return "[x, y, z] of " + kinds;
+    return "[x, y, z]: " + kinds;
   case Key::Form::rows:
-    return "list of pairs, the second value " + kinds;
+    return "list of pairs, second value: " + kinds;
   case Key::Form::whole:
     return "integer";
   case Key::Form::quantity:
     return "value with unit";
   case Key::Form::numbers:
-    return "list of " + kinds;
+    return "list of values: " + kinds;
   case Key::Form::matrix:
-    return "list of rows of " + kinds;
+    return "matrix (list of rows): " + kinds;
   case Key::Form::text:
     return "string";
   case Key::Form::texts:

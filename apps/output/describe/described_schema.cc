@@ -8,12 +8,19 @@ namespace gestell::apps
 namespace
 {
 
+/// "objects", "arrays of numbers"
+std::string plural(const std::string &name)
+{
+  const std::string array = "array";
+  return name.rfind(array, 0) == 0 ? array + 's' + name.substr(array.size()) : name + 's';
+}
+
 /// "number or null", "array of objects"
 std::string type_name(const Json &schema)
 {
   const Json       &type = schema["type"];
   const std::string name = type.is_array() ? type[0] : type;
-  return (name == "array" ? "array of " + type_name(schema["items"]) + 's' : name) +
+  return (name == "array" ? "array of " + plural(type_name(schema["items"])) : name) +
          (schema.contains("~optional") ? " or null" : "");
 }
 
