@@ -83,16 +83,16 @@ std::string formula_of(const Check &check)
 }
 
 /// Compared values with one formula.
-struct Expectation
+struct ExpectedNames
 {
   std::string formula, names;
 };
 
-void add_name(std::vector<Expectation> &expected, const Check &check)
+void add_name(std::vector<ExpectedNames> &expected, const Check &check)
 {
   const std::string formula = formula_of(check), name = compared(check);
   const auto        same = std::find_if(expected.begin(), expected.end(),
-                                        [&](const Expectation &other) { return other.formula == formula; });
+                                        [&](const ExpectedNames &other) { return other.formula == formula; });
   if (same == expected.end())
     expected.push_back({formula, name});
   else if (same->names.find(name) == std::string::npos)
@@ -102,7 +102,7 @@ void add_name(std::vector<Expectation> &expected, const Check &check)
 /// One note for all checks with the same source and tolerance.
 std::vector<std::string> notes_of(const ReferenceCase &one)
 {
-  std::vector<std::pair<std::string, std::vector<Expectation>>> notes; ///< by provenance
+  std::vector<std::pair<std::string, std::vector<ExpectedNames>>> notes; ///< by provenance
   for (const Check &check : one.checks)
   {
     const std::string from = provenance(check);
@@ -115,7 +115,7 @@ std::vector<std::string> notes_of(const ReferenceCase &one)
   for (const auto &[from, expected] : notes)
   {
     std::string line;
-    for (const Expectation &each : expected)
+    for (const ExpectedNames &each : expected)
       line += (line.empty() ? "" : "; ") + each.names + (each.formula.empty() ? "" : " by " + each.formula);
     lines.push_back(line + ": " + from + ".");
   }
