@@ -8,14 +8,14 @@ namespace
 {
 
 /// A cell of a table; vertical bars would end it.
-std::string cell(std::string text)
+std::string cell_text(std::string text)
 {
   for (auto at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
     text.insert(at, "\\");
   return text;
 }
 
-std::string input_of(const Command &command)
+std::string input_word(const Command &command)
 {
   switch (command.input)
   {
@@ -34,7 +34,7 @@ std::string input_of(const Command &command)
 }
 
 /// "`-o`, `--output`", "`--peers`, `--no-peers`".
-std::string names_of(const std::string &option)
+std::string option_names(const std::string &option)
 {
   std::string text = "`";
   for (const char letter : option)
@@ -42,9 +42,9 @@ std::string names_of(const std::string &option)
   return text + "`";
 }
 
-std::string section(const Command &command)
+std::string command_section(const Command &command)
 {
-  std::string text = "### " + command.name + "\n\n`gestell " + command.name + input_of(command);
+  std::string text = "### " + command.name + "\n\n`gestell " + command.name + input_word(command);
   for (const CommandOption &option : command.options)
     if (option.name.front() != '-')
       text += " [" + option.name + "]";
@@ -52,7 +52,7 @@ std::string section(const Command &command)
   if (!command.options.empty())
     text += "| Option | Description |\n|---|---|\n";
   for (const CommandOption &option : command.options)
-    text += "| " + names_of(option.name) + " | " + cell(option.does) +
+    text += "| " + option_names(option.name) + " | " + cell_text(option.does) +
             (option.needs.empty() ? "" : "; with `" + option.needs + "`") + " |\n";
   text += std::string(command.options.empty() ? "" : "\n") + "Examples: ";
   for (const std::string &example : command.examples)
@@ -68,7 +68,7 @@ std::string command_reference(const std::vector<Command> &all)
   std::sort(sorted.begin(), sorted.end(), [](const Command &a, const Command &b) { return a.name < b.name; });
   std::string text;
   for (const Command &command : sorted)
-    text += section(command);
+    text += command_section(command);
   return text;
 }
 
