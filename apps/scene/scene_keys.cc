@@ -122,7 +122,7 @@ const std::vector<Key> &reduction_keys()
 
 const std::vector<Key> &start_keys()
 {
-  const std::string             rotors = "steady, without joints: of rotors, ";
+  const std::string             rotors = " of rotors, for `\"steady\"` without joints: ";
   static const std::vector<Key> keys   = {
         key::choice("rule", {"given", "static", "steady", "periodic"}, true,
                     "initial state: as given, static equilibrium, steady motion, or on the periodic solution that "
@@ -141,9 +141,9 @@ const std::vector<Key> &start_keys()
                    "for `\"static\"`: loads on unconstrained DOFs are balanced by the inertia of the machine; otherwise "
                      "they are an error")
             .into(&StartRequest::inertia_relief),
-        key::map("angles", kind::angle, {}, rotors + "`{ crank = \"120 deg\" }`")
+        key::map("angles", kind::angle, {}, "angles" + rotors + "`{ crank = \"120 deg\" }`")
             .by_default("by the balance of the `driver`"),
-        key::map("speeds", kind::angular_speed, {}, rotors + "`{ crank = \"30 rpm\" }`").by_default("0"),
+        key::map("speeds", kind::angular_speed, {}, "speeds" + rotors + "`{ crank = \"30 rpm\" }`").by_default("0"),
         key::named("driver", "for `\"steady\"` without joints: rotor whose angle follows from the torque balance")
             .by_default("a given angle")};
   return keys;
