@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -62,9 +63,12 @@ std::string section(const DeclaredTable &table)
         std::stable_partition(own.begin(), own.end(), [&](const Key &key) { return !is_shared(key, group); });
     if (shared == own.end())
       continue;
-    const bool all = static_cast<std::size_t>(own.end() - shared) == group.keys.size();
-    text += std::string(all ? " Keys of [" : " Also " + names_of({shared, own.end()}) + " of [") + group.title + "](" +
-            anchor(group.title) + ").";
+    std::vector<Key> others;
+    std::copy_if(group.keys.begin(), group.keys.end(), std::back_inserter(others),
+                 [&](const Key &key)
+                 { return std::none_of(shared, own.end(), [&](const Key &other) { return other.name == key.name; }); });
+    text += " Keys of [" + group.title + "](" + anchor(group.title) + ")" +
+            (others.empty() ? "." : " except " + names_of(others) + ".");
     own.erase(shared, own.end());
   }
   own.erase(
