@@ -61,8 +61,8 @@ std::string section(const DeclaredTable &table)
       continue;
     const auto shared =
         std::stable_partition(own.begin(), own.end(), [&](const Key &key) { return !is_shared(key, group); });
-    if (shared == own.end())
-      continue;
+    if (2 * static_cast<std::size_t>(own.end() - shared) <= group.keys.size()) // a reader would have to look up more
+      continue;                                                                // keys than stay in the table
     std::vector<Key> others;
     std::copy_if(group.keys.begin(), group.keys.end(), std::back_inserter(others),
                  [&](const Key &key)
