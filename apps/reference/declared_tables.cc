@@ -156,7 +156,7 @@ std::string range_text(Key::Range range)
 /// " with a, b" for a table; empty if its keys are declared separately.
 std::string of_keys(const Key &key)
 {
-  return key.keys.empty() ? "" : " with " + names_of(key.keys);
+  return key.keys.empty() ? "" : " with " + quoted_names(key.keys);
 }
 
 std::string form_text(Key::Form form, const Key &key, const std::string &kinds)
@@ -169,7 +169,8 @@ std::string form_text(Key::Form form, const Key &key, const std::string &kinds)
     return "formula, " + kinds;
   case Key::Form::profile:
   case Key::Form::course:
-    return kinds + ", or ramps" + (form == Key::Form::course ? ", or a function" : "") + ", with " + names_of(key.keys);
+    return kinds + ", or ramps" + (form == Key::Form::course ? ", or a function" : "") + ", with " +
+           quoted_names(key.keys);
   case Key::Form::truth:
     return "true or false";
   case Key::Form::choice:
@@ -199,11 +200,11 @@ std::string form_text(Key::Form form, const Key &key, const std::string &kinds)
   case Key::Form::table:
     return "table" + of_keys(key);
   case Key::Form::map:
-    return "table {name = value}" + (key.keys.empty() ? "" : ", with keys " + names_of(key.keys));
+    return "table {name = value}" + (key.keys.empty() ? "" : ", with keys " + quoted_names(key.keys));
   case Key::Form::tables:
-    return "list of tables with " + names_of(key.keys);
+    return "list of tables with " + quoted_names(key.keys);
   case Key::Form::coefficient:
-    return kinds + ", or a table with " + names_of(key.keys);
+    return kinds + ", or a table with " + quoted_names(key.keys);
   }
   return "";
 }
@@ -249,7 +250,7 @@ const std::vector<KeyGroup> &key_groups()
   return groups;
 }
 
-std::string names_of(const std::vector<Key> &keys)
+std::string quoted_names(const std::vector<Key> &keys)
 {
   std::string names;
   for (const Key &key : keys)

@@ -68,7 +68,7 @@ std::string section(const DeclaredTable &table)
                  [&](const Key &key)
                  { return std::none_of(shared, own.end(), [&](const Key &other) { return other.name == key.name; }); });
     text += " Keys of [" + group.title + "](" + anchor(group.title) + ")" +
-            (others.empty() ? "." : " except " + names_of(others) + ".");
+            (others.empty() ? "." : " except " + quoted_names(others) + ".");
     own.erase(shared, own.end());
   }
   own.erase(
