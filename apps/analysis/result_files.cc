@@ -28,25 +28,24 @@ std::string csv_of(const Result &result)
 
 /// Files that do not belong to an analysis.
 const std::vector<ResultFile> own_files = {
-    {"history.csv", "to plot: every signal over time", csv_of<&Result::run, history_csv>},
+    {"history.csv", "every signal over time, for plots", csv_of<&Result::run, history_csv>},
     {"modes.csv", "natural frequencies, damping, effective masses", csv_of<modes_csv>},
-    {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", csv_of<mode_energies_csv>},
-    {"size.csv", "models that `size` tried, with their cost and errors", csv_of<&Result::size, size_csv>},
-    {"sized.toml", "the one that it chose, as a scene", nullptr, "", "", nullptr, WrittenBy::its_command},
+    {"mode_energies.csv", "strain and kinetic energy of each coupled mode by part", csv_of<mode_energies_csv>},
+    {"size.csv", "models examined by `size`, with cost and errors", csv_of<&Result::size, size_csv>},
+    {"sized.toml", "the model chosen by `size`, as a scene", nullptr, "", "", nullptr, WrittenBy::its_command},
     {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`", nullptr, "", "", nullptr,
      WrittenBy::its_command},
     {"frame_modes.pvd", "mode shapes of the frame in ParaView", nullptr, "frame_modes", ".vtp"},
     {"coupled_modes.pvd", "mode shapes of frame and mechanism together in ParaView, by `modes`", nullptr,
      "coupled_modes", ".vtp"},
     {"motion.pvd", "frame and mechanism in motion in ParaView", nullptr, "motion", ".vtp"},
-    {"forces.pvd", "what elements, joints, springs and loads exert on each body, as vectors where they act", nullptr,
+    {"forces.pvd", "forces of elements, joints, springs and loads on each body, for arrows in ParaView", nullptr,
      "forces", ".vtp"},
-    {"view.py", "opens motion.pvd and forces.pvd in ParaView, deformed, coloured, at the main peak"},
-    {"stress.pvd", "stresses at the frame's skin in ParaView, with `[output.stress]`", nullptr, "stress", ".vtp"},
-    {"report.html",
-     "to read: one page, opens without a network, light or dark, printable; its pictures, each for itself", nullptr,
-     "charts", ".svg"},
-    {"summary.json", "to compare and to process: peaks, events, frequencies, work, energy, warnings"}};
+    {"view.py", "macro that opens motion.pvd and forces.pvd in ParaView at the main peak, deformed and coloured"},
+    {"stress.pvd", "stresses at the skin of the frame in ParaView, with `[output.stress]`", nullptr, "stress", ".vtp"},
+    {"report.html", "report: one page for browser or print, without a network; its charts as files", nullptr, "charts",
+     ".svg"},
+    {"summary.json", "results for other programs: peaks, events, frequencies, work, energy, warnings"}};
 
 } // namespace
 
@@ -86,7 +85,7 @@ bool is_result(const std::string &name)
 
 std::string result_files_table()
 {
-  std::string text = "| file | what it is for |\n|---|---|\n";
+  std::string text = "| File | Content |\n|---|---|\n";
   for (const ResultFile &file : result_files())
     text += "| `" + file.name + "`" + (file.folder.empty() ? "" : ", `" + file.folder + "/*" + file.ending + "`") +
             " | " + file.holds + " |\n";

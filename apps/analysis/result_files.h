@@ -9,7 +9,7 @@ namespace gestell::apps
 {
 
 /// All files of results, those of analyses last, in the order of writing: the files that prepare_folder() removes, and
-/// the list in docs/results.md.
+/// the list in docs/reference/results.md.
 const std::vector<ResultFile> &result_files();
 
 /// Names that write_results() may write, for OwnFolder::require_free(); folders end in "/": "motion/".

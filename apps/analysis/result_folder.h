@@ -34,8 +34,8 @@ void require_room(const std::filesystem::path &folder, const std::vector<std::st
 void prepare_folder(const std::filesystem::path &folder, const std::vector<std::filesystem::path> &inputs = {});
 
 /**
- * Writes every file of docs/results.md for which `result` has values: history and tables first, then the report and its
- * charts, the ParaView files, and summary.json, for which disk space is reserved at the start.
+ * Writes every file of docs/reference/results.md for which `result` has values: history and tables first, then the
+ * report and its charts, the ParaView files, and summary.json, for which disk space is reserved at the start.
  *
  * Files that cannot be written are skipped, a ParaView series as a whole, and listed in the warnings of summary.json;
  * all results are then written into a new temporary folder, if that is possible.

@@ -51,12 +51,11 @@ std::string table(const std::vector<std::vector<std::string>> &rows)
 std::string atlas_markdown(const std::vector<AtlasEntry> &entries, const std::string &figures)
 {
   std::string text =
-      "# Failure atlas\n\n"
-      "For every method the place where it fails: predicted from the roots of its step "
-      "([stability.md](stability.md)), and measured by stepping the program's own integrators. Made by\n\n"
-      "    gestell stability --atlas docs/failure_atlas.md\n\n"
-      "`tests/apps/cli/failure_atlas_test.cc` makes the numbers anew. A run meets none of this unasked: the "
-      "stability guard refuses what would grow, events are located, Newton solves the forces.\n\n";
+      "# Failure atlas\n\nWhere each method fails: predicted from the roots of its step "
+      "([stability.md](stability.md)), and measured with the integrators of the program. Written by\n\n    gestell "
+      "stability --atlas docs/theory/failure_atlas.md\n\nand repeated by `tests/apps/cli/failure_atlas_test.cc`. A run "
+      "does not fail in these ways by default: the stability check rejects steps that would grow, events are located, "
+      "and Newton's method solves for the forces.\n\n";
   for (const AtlasEntry &entry : entries)
     text += "- [" + entry.title + "](#" + entry.id + ")\n";
   for (const AtlasEntry &entry : entries)

@@ -103,17 +103,16 @@ AtlasEntry hard_contact()
 {
   AtlasEntry entry{
       "hard-contact",
-      "Hard contact: energy from nowhere, and energy lost",
-      "A mass flies between two elastic stops, some seven steps from one to the other; nothing dissipates. Every "
-      "method here is stable for the mass in flight and for the mass in contact. Yet where a step goes over the switch "
-      "of stiffness, that does work: generalised alpha (0.9, and at stiffer stops 0.5 too), HHT -0.05 and the average "
-      "acceleration let the mass gain speed, no matter that their spectral radius is at most 1; BDF 2 loses the energy "
-      "instead. With events located none gains, but what the cut at the end of a contact costs remains, so the step "
-      "has to resolve a contact, ω_c h < 0.3, whatever the spectral radius says. Exact propagation with the mean force "
-      "along the way does exactly the work that the contact stores, p (u_1 - u_0) = V_0 - V_1, with every stiffness; "
-      "over a kink as exactly as the mean is taken, in 128 pieces. Largest kinetic energy in flight over 4000 steps, "
-      "relative to the start, and the one at "
-      "the end (the motion is chaotic: only orders of magnitude mean anything):",
+      "Hard contact: spurious energy gain and loss",
+      "A mass flies between two elastic stops without dissipation, about seven steps from one to the other. Every "
+      "method here is stable for the mass in flight and for the mass in contact. Yet a step across the change of "
+      "stiffness does spurious work. With generalised alpha (0.9, at stiffer stops also 0.5), HHT -0.05 and average "
+      "acceleration the mass gains speed, although their spectral radius is at most 1; BDF 2 loses the energy. With "
+      "located events no method gains energy, but the shortened step at the end of a contact still has an error. The "
+      "step must therefore resolve a contact, ω_c h < 0.3, whatever the spectral radius. Exact propagation with the "
+      "average force does exactly the work that the contact stores, p (u_1 - u_0) = V_0 - V_1, for every stiffness; "
+      "across a kink as exactly as the average is computed, in 128 pieces. Largest kinetic energy in flight over 4000 "
+      "steps relative to the start, and that at the end (the motion is chaotic, so only orders of magnitude count):",
       {},
       {},
       {}};
@@ -131,7 +130,7 @@ AtlasEntry hard_contact()
   for (std::size_t m = 0; m < methods.size(); ++m)
     for (const bool locate : {false, true})
     {
-      std::vector<std::string> row{methods[m].name, locate ? "located" : "gone over"};
+      std::vector<std::string> row{methods[m].name, locate ? "located" : "not located"};
       double                   largest = 0.;
       for (const double x : omega_h)
       {
@@ -141,7 +140,8 @@ AtlasEntry hard_contact()
         row.push_back(short_text(most, 1) + " / " + short_text(energy.back(), 1));
         // Over a kink each of the 128 pieces misses its mean by up to 128^-2, some hundred times in the run.
         if (methods[m].options.method == "exact")
-          entry.comparisons.push_back({"exact, average force, events " + std::string(locate ? "located" : "gone over") +
+          entry.comparisons.push_back({"exact, average force, events " +
+                                           std::string(locate ? "located" : "not located") +
                                            ", energy at omega_c h = " + short_text(x),
                                        1., energy.back(), locate ? 1e-9 : 0.02});
         if (x == 3. && !locate)
@@ -239,11 +239,10 @@ AtlasEntry order_at_play()
   AtlasEntry entry{
       "order-at-play",
       "Order lost at play without events",
-      "A forced oscillator in a play. Where a step goes over the instant of contact, the kink of the force "
-      "leaves a local error of second order, however high the order of the method; with events located "
-      "and the integration restarted there, the order is back. Orders are slopes over the steps of the "
-      "figure (without events irregular), predicted min(p, 2) and p; the error is the root mean square "
-      "over nine instants.",
+      "A forced oscillator in a clearance. If a step crosses the instant of contact, the kink of the force causes a "
+      "local error of second order, whatever the order of the method. With located events and a restart there, the "
+      "method keeps its order. Orders are slopes over the steps of the figure (irregular without events), predicted "
+      "min(p, 2) and p; the error is the root mean square over nine instants.",
       {},
       {{"method", "order without events", "order with events", "error at the smallest step"}},
       {}};
@@ -311,13 +310,12 @@ AtlasEntry chatter()
 {
   AtlasEntry entry{
       "chatter",
-      "Chatter: more events than steps are worth",
-      "Masses rattle side by side, each between its own stops, and every impact is an event. At most 20 are "
-      "located within the length of a step; then one step goes over what is left. Such steps are counted and "
-      "told in `summary.json`, and they bound the work, whatever the machine does. Average acceleration, "
-      "60 steps:",
+      "Chatter: too many events",
+      "Masses rattle next to each other, each between its own stops, and every impact is an event. At most 20 events "
+      "are located within the length of a step; the rest of that step is one step without location. Such steps are "
+      "counted in `summary.json`; they limit the work for any machine. Average acceleration, 60 steps:",
       {},
-      {{"masses", "events a step", "steps gone over", "most parts within one step's length"}},
+      {{"masses", "events per step", "steps without location", "largest number of parts of a step"}},
       {}};
   constexpr double gap = 1., omega_contact = 1.; // in steps, at the speed 1
   constexpr int    n_steps = 60;                 // two impacts of each mass and more

@@ -111,14 +111,15 @@ AtlasEntry bdf3_on_a_frame()
   for (const double f : hertz)
     masses.push_back({two_pi * f, zeta});
 
-  AtlasEntry entry{"bdf3-frame",
-                   "BDF 3 on a frame with 1 % damping",
-                   "Four modes, 20, 60, 150 and 400 Hz, with a damping ratio of 1 %. BDF 3 makes a mode with 1 % grow "
-                   "for 0.3567 < ω h < 1.863; among modes over more than a decade one is met at every step that is of "
-                   "use. The growth of the worst mode, as its roots say and as the run has it:",
-                   {},
-                   {{"step", "mode that grows fastest", "predicted", "measured"}},
-                   {}};
+  AtlasEntry entry{
+      "bdf3-frame",
+      "BDF 3 on a frame with 1 % damping",
+      "Four modes, 20, 60, 150 and 400 Hz, with a damping ratio of 1 %. BDF 3 amplifies a mode with 1 % damping for "
+      "0.3567 < ω h < 1.863. If the frequencies of a frame span more than a decade, every useful step has such a mode. "
+      "Growth of the worst mode, predicted by the roots and measured in a run:",
+      {},
+      {{"step", "mode that grows fastest", "predicted", "measured"}},
+      {}};
   Chart      chart = growth_chart(entry.title, {"step in s", 1e-4, 1e-2, Scale::logarithmic}, 0.99, 1.045);
   Curve      line{"predicted, of the worst mode"}, seen = rings("measured", 1);
   const auto worst = [&](double h)
@@ -156,9 +157,9 @@ AtlasEntry bdf_of_high_order()
 {
   return growth_entry({"bdf-high-order",
                        "BDF 4, 5 and 6 on an undamped mode",
-                       "BDF 4 grows from ω h = 0 on, slowly at first, (ω h)⁶/3 a step; BDF 5 and 6 from 0.711 and "
-                       "0.843. Only a damping ratio of 0.286, 0.618 or 0.952 would make them stable for every step. "
-                       "With a controlled step Gestell leaves an order as soon as a mode would grow with it.",
+                       "BDF 4 grows for every ω h > 0, at first slowly, by (ω h)⁶/3 per step; BDF 5 and 6 grow above "
+                       "0.711 and 0.843. Only damping ratios of 0.286, 0.618 and 0.952 would make them stable for "
+                       "every step. With a controlled step Gestell lowers the order before a mode grows.",
                        {},
                        {},
                        {}},
@@ -172,8 +173,8 @@ AtlasEntry wilson_below_its_limit()
 {
   return growth_entry({"wilson-limit",
                        "Wilson below θ = (1 + √3)/2",
-                       "From θ = 1.3660254 on Wilson's method is stable for every step. The rounded value 1.366025 "
-                       "grows for ω h > 2929, θ = 1.3 for ω h > 7.385, θ = 1 is the linear acceleration with 2√3.",
+                       "Wilson's method is stable for every step if θ ≥ 1.3660254. The rounded value 1.366025 grows "
+                       "for ω h > 2929, θ = 1.3 for ω h > 7.385; θ = 1 is linear acceleration with the limit 2√3.",
                        {},
                        {},
                        {}},
@@ -186,19 +187,19 @@ AtlasEntry wilson_below_its_limit()
 
 AtlasEntry newmark_outside_its_limits()
 {
-  return growth_entry({"newmark-limits",
-                       "Newmark with γ < 1/2, linear acceleration, central differences",
-                       "γ < 1/2 feeds every undamped mode, |r|² = 1 + (1/2 - γ)(ω h)²/(1 + β (ω h)²). The linear "
-                       "acceleration (β = 1/6) "
-                       "ends at ω h = 2√3 and central differences at 2, whatever the damping.",
-                       {},
-                       {},
-                       {}},
-                      {{"γ = 0.45, β = 0.25", newmark(0.25, 0.45), 0., {0.3, 1., 3., 20.}},
-                       {"linear acceleration", newmark(1. / 6., 0.5), 0., {3.5, 3.8, 4.5}},
-                       {"central differences", options_of("central-difference"), 0., {2.01, 2.1, 2.2}},
-                       {"central differences, ζ = 0.05", options_of("central-difference"), 0.05, {2.01, 2.1, 2.2}}},
-                      0.1, 100., 1.8);
+  return growth_entry(
+      {"newmark-limits",
+       "Newmark with γ < 1/2, linear acceleration, central differences",
+       "γ < 1/2 amplifies every undamped mode, |r|² = 1 + (1/2 - γ)(ω h)²/(1 + β (ω h)²). Linear acceleration (β = "
+       "1/6) is stable up to ω h = 2√3, central differences up to 2, for any damping.",
+       {},
+       {},
+       {}},
+      {{"γ = 0.45, β = 0.25", newmark(0.25, 0.45), 0., {0.3, 1., 3., 20.}},
+       {"linear acceleration", newmark(1. / 6., 0.5), 0., {3.5, 3.8, 4.5}},
+       {"central differences", options_of("central-difference"), 0., {2.01, 2.1, 2.2}},
+       {"central differences, ζ = 0.05", options_of("central-difference"), 0.05, {2.01, 2.1, 2.2}}},
+      0.1, 100., 1.8);
 }
 
 AtlasEntry exact_force_at_contact()
@@ -206,12 +207,11 @@ AtlasEntry exact_force_at_contact()
   return growth_entry(
       {"exact-contact",
        "Exact propagation with a linear force at a stiff contact",
-       "The base system is exact at every step; what can grow is a closed contact, whose force is interpolated. On a "
-       "free mass with the contact's stiffness the linear force ends at ω_c h = 2√3. Collocation ends at 2√2 (order "
-       "2); "
-       "with order 4 it grows in 3 < ω_c h < 2√3 and from 6 on, with order 6 in 3.1262 < ω_c h < √10, with order 8 in "
-       "3.1409 < ω_c h < 3.1425, and then in wider islands: below ω_c h = 3 orders from 4 on are sound. The mean force "
-       "along the way conserves the energy of the contact: it stands at every step.",
+       "The base system is exact for every step; only a closed contact can grow, because its force is interpolated. "
+       "For a free mass with the stiffness of the contact, the linear force is stable up to ω_c h = 2√3, collocation "
+       "of order 2 up to 2√2. Order 4 grows for 3 < ω_c h < 2√3 and above 6, order 6 for 3.1262 < ω_c h < √10, order 8 "
+       "for 3.1409 < ω_c h < 3.1425, each then in wider islands. Orders 4 and above are therefore stable below ω_c h = "
+       "3. The average force conserves the energy of the contact and is stable for every step.",
        {},
        {},
        {}},
@@ -228,9 +228,9 @@ AtlasEntry wilson_overshoot()
 {
   AtlasEntry entry{"wilson-overshoot",
                    "Wilson's overshoot",
-                   "With θ = 1.4 nothing grows, but a stiff mode that starts from a displacement first jumps to "
-                   "(ω h)²/7 times of it, within one step. A contact that closes, or any start that is out of "
-                   "balance in a stiff mode, does that. The largest |x| of the first 20 steps:",
+                   "With θ = 1.4 nothing grows. But a stiff mode with an initial displacement jumps to (ω h)²/7 times "
+                   "this displacement within one step. A contact that closes has this effect, and so has any initial "
+                   "state that is not in equilibrium in a stiff mode. Largest |x| of the first 20 steps:",
                    {},
                    {{"ω h", "predicted", "measured"}},
                    {}};

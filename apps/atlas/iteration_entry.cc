@@ -60,11 +60,10 @@ AtlasEntry fixed_point_of_forces()
   AtlasEntry entry{
       "fixed-point",
       "Pseudo forces by fixed-point iteration",
-      "To put the forces of elements on the right-hand side and iterate, u ← u_free + S p(u), needs no "
-      "tangent, but converges only while |S dp/du| < 1, S = h_b² Wᵀ A⁻¹ W the compliance of the base "
-      "system over a step. A contact of 10⁸ N/m on 1 kg with a step of 1 ms has 44. Newton converges "
-      "wherever there is a solution, here in one iteration and one that confirms it. BDF 2, h = 1 ms, 1 kg at 50 "
-      "rad/s:",
+      "Some programs put the element forces on the right-hand side and iterate, u ← u_free + S p(u). This needs no "
+      "tangent, but converges only if |S dp/du| < 1, with the compliance S = h_b² Wᵀ A⁻¹ W of the base system over a "
+      "step. A contact of 10⁸ N/m on 1 kg with a step of 1 ms has 44. Newton's method converges here in one iteration, "
+      "and a second one confirms it. BDF 2, h = 1 ms, 1 kg at 50 rad/s:",
       {},
       {{"stiffness of the element", "S dp/du, predicted", "measured ratio of corrections", "Newton iterations a step"}},
       {}};

@@ -135,17 +135,16 @@ double first_multiplier(double h)
 
 AtlasEntry drift_of_joints()
 {
-  AtlasEntry entry{
-      "joint-drift",
-      "Joints held by their accelerations drift open",
-      "Differentiate g = 0 twice, and the forces of joints follow from g″ = 0 at every instant: any method for "
-      "ordinary differential equations will do. But nothing brings back what g has gained. A mass that goes "
-      "round on a bar without weight shows it exactly: such a method sees q″ = -ω²q, and the bar grows by |R(iωh)| a "
-      "step, with R the root of the method. Gestell demands g = 0 itself (index 3). Ten turns at 5 rad/s, length "
-      "of the bar at the end:",
-      {},
-      {{"method", "step", "predicted", "measured", "BDF 2 with g = 0"}},
-      {}};
+  AtlasEntry     entry{"joint-drift",
+                   "Joints enforced by accelerations drift open",
+                   "If g = 0 is differentiated twice, the joint forces follow from g″ = 0 at every instant, and any "
+                       "method for ordinary differential equations can be used. But errors of g itself are never "
+                       "corrected. A mass on a rotating massless bar shows this exactly: such a method solves q″ = -ω²q, "
+                       "and the bar grows by |R(iωh)| per step, with R the root of the method. Gestell enforces g = 0 "
+                       "itself (index 3). Ten revolutions at 5 rad/s, length of the bar at the end:",
+                   {},
+                   {{"method", "step", "predicted", "measured", "BDF 2 with g = 0"}},
+                   {}};
   const Explicit euler{"explicit Euler", {0.}, {1.}},
       classical{"Runge-Kutta of order 4", {0., 0.5, 0.5, 1.}, {1. / 6., 1. / 3., 1. / 3., 1. / 6.}};
   for (const auto &[method, parts] : {std::pair{euler, 4000}, {euler, 400}, {classical, 80}, {classical, 40}})
@@ -166,19 +165,16 @@ AtlasEntry drift_of_joints()
 
 AtlasEntry first_multiplier_of_a_joint()
 {
-  AtlasEntry entry{
-      "joint-multiplier",
-      "The first forces of joints by index 3",
-      "Demanding g = 0 at the end of a step, a method finds forces from second differences of positions. "
-      "Behind a start these "
-      "are not yet there: implicit Euler places x₁ right, but (x₁ - x₀ - h v₀)/h² is half of the "
-      "acceleration, whatever the "
-      "step: order zero. Behind every start and event Gestell therefore takes forces from g″ = 0, at the positions and "
-      "velocities of the method. The mass on its bar, first force over the true "
-      "one:",
-      {},
-      {{"step", "predicted", "measured"}},
-      {}};
+  AtlasEntry entry{"joint-multiplier",
+                   "The first joint forces by index 3",
+                   "A method that enforces g = 0 at the end of a step computes joint forces from second differences of "
+                   "positions. After a start these are wrong: implicit Euler gives the right x₁, but (x₁ - x₀ - h "
+                   "v₀)/h² is half of the acceleration for every step (order zero). After every start and event "
+                   "Gestell therefore computes forces from g″ = 0, at the positions and velocities of the method. The "
+                   "mass on its bar, ratio of the first force to the true one:",
+                   {},
+                   {{"step", "predicted", "measured"}},
+                   {}};
   for (const double h : {1e-2, 1e-3, 1e-4})
   {
     // x_1 = (1, omega h)/sqrt(1 + (omega h)^2): the bar reverses part of the displacement along the tangent.

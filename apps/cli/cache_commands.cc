@@ -251,7 +251,7 @@ void explain_cache(const Scene &scene)
   if (own == entries.end())
     std::cout << " is not in the cache " << coupling::cache_folder() << "; it would be made\n";
   else if (!defect.empty())
-    std::cout << " would be made anew: " << own->file << ' ' << defect << '\n';
+    std::cout << " would be reduced again: " << own->file << ' ' << defect << '\n';
   else
   {
     std::cout << " is in the cache and would be used\n  " << own->file << ", " << size_text(double(own->bytes))

@@ -23,7 +23,7 @@ struct CacheExplanation
   std::vector<coupling::Difference>   differences{}; ///< cached and requested values
 };
 
-/// Answers of commands as JSON text for answer_with(), all in SI units, docs/json.md.
+/// Answers of commands as JSON text for answer_with(), all in SI units, docs/reference/json.md.
 
 std::string cache_answer(const std::vector<coupling::CacheEntry> &entries);
 std::string explanation_answer(const CacheExplanation &explanation);

@@ -189,7 +189,7 @@ void require_archive(const std::filesystem::path &file)
   if (std::filesystem::exists(std::filesystem::symlink_status(file, none)) &&
       !(in.read(begin, 2) && begin[0] == 'P' && begin[1] == 'K'))
     throw std::invalid_argument("--fmu: " + file.string() +
-                                " is there already and is no FMU, so that it is not replaced; give another name");
+                                " already exists and is not an FMU, so that it is not replaced; give another name");
 }
 
 int export_scene(const CommonOptions &options, const ExportOptions &requested)
@@ -229,14 +229,14 @@ Command export_command()
 {
   const auto own = std::make_shared<ExportOptions>();
   return {"export",
-          "the machine for other programs that step it together with their own: an FMU 2.0 for co-simulation",
+          "export the machine as an FMU 2.0 for co-simulation",
           {"gestell export apps/scenes/press_minimal.toml --fmu press.fmu --inputs F=slide,frame.crown.uz"},
           CommandInput::scene,
           {{"--fmu", &own->fmu,
-            "file to write, such as press.fmu (default: in the folder for results, named after the scene)"},
+            "FMU to write, such as press.fmu (default: in the folder of results, with the name of the scene)"},
            {"--inputs", &own->inputs,
-            "forces and speeds set from outside, beside those that the scene names: slide, crank, frame.crown.uz, "
-            "drive.speed, or by a name of their own F=slide"}},
+            "inputs (forces and speeds) in addition to those in the scene: slide, crank, frame.crown.uz, drive.speed, "
+            "or with another name F=slide"}},
           [own](const CommonOptions &options) { return export_scene(options, *own); }};
 }
 

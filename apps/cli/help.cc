@@ -1,4 +1,5 @@
-#include "apps/cli/command.h"
+#include "apps/cli/command_reference.h"
+#include "apps/cli/commands.h"
 #include "apps/reference/declared_tables.h"
 #include "apps/reference/help_text.h"
 #include "apps/reference/json_schema.h"
@@ -30,7 +31,7 @@ std::vector<std::string> tables()
 int help(const HelpCommandOptions &help)
 {
   if (!help.docs.empty())
-    renew_reference(help.docs);
+    renew_reference(help.docs, command_reference(commands()));
   else
     std::cout << (help.schema ? json_schema() : help_text(help.topic));
   return exit_done;
@@ -42,12 +43,12 @@ Command help_command()
 {
   const auto own = std::make_shared<HelpCommandOptions>();
   return {"help",
-          "explain the keys of a scene",
+          "explain the keys of scenes and studies",
           {"gestell help element.clearance", "gestell help stiffness"},
           CommandInput::none,
           {CommandOption{"KEY", &own->topic, "table or key (default: the list of tables)"}.proposing(tables()),
-           {"--schema", &own->schema, "JSON schema of scenes, for editors, instead"},
-           {"--renew", &own->docs, "write schema and tables of keys in this folder of documents anew, instead"}},
+           {"--schema", &own->schema, "only print the JSON schema of scenes, for editors"},
+           {"--renew", &own->docs, "only regenerate schemas, key tables and options in this folder of documents"}},
           [own](const CommonOptions &) { return help(*own); }};
 }
 

@@ -9,7 +9,7 @@ namespace gestell::apps
 {
 
 /**
- * With `--json`: one JSON document on standard output instead of the printed text (docs/json.md).
+ * With `--json`: one JSON document on standard output instead of the printed text (docs/reference/json.md).
  *
  * During its lifetime output to std::cout is captured, and warnings to std::cerr are recorded.  A command with a
  * structured answer passes it to answer_with(); the captured text is always in the document, so that this is optional.

@@ -182,7 +182,7 @@ void write_faces(const std::filesystem::path &folder, const coupling::MeshReport
   const std::string warning = write_face_surface(own.claim("faces.vtp"), report);
   if (!warning.empty())
     std::cerr << "gestell: warning: " << warning << '\n';
-  std::cout << "faces to see and to click: " << (folder / "faces.html").string()
+  std::cout << "interactive 3-D view of the faces: " << (folder / "faces.html").string()
             << (warning.empty() ? ", for ParaView: " + (folder / "faces.vtp").string() : "") << '\n';
 }
 
@@ -228,24 +228,25 @@ Command mesh_command()
   const auto own = std::make_shared<MeshCommandOptions>();
   return {
       "mesh",
-      "mesh a CAD file; report its quality, surfaces and solids",
+      "mesh a CAD file; list quality, surfaces and solids",
       {"gestell mesh meshes/press_frame.step --size '80 mm'", "gestell mesh meshes/press_frame.step -o results/faces"},
       CommandInput::cad,
-      {{"-o,--output", &own->folder, "folder for faces.html, a page of all faces to see and to click, and faces.vtp"},
+      {{"-o,--output", &own->folder, "folder for faces.html, an interactive 3-D view of all faces, and faces.vtp"},
        {"--size", &own->size, "element size, such as \"80 mm\""},
        {"--unit", &own->unit, "length unit of a file without one, such as \"1 mm\""},
-       CommandOption{"--max-cells", &own->max_cells, "refuse a mesh of more elements"}.above_zero(),
-       {"--gap", &own->gap, "join solids at most that far apart, such as \"0.1 mm\""},
-       CommandOption{"--bodies", &own->bodies, "number of bodies expected that do not hang together"}.above_zero(),
-       CommandOption{"--overlaps", &own->overlaps, "refused, or once: a common part of solids belongs to the first"}
+       CommandOption{"--max-cells", &own->max_cells, "largest number of elements"}.above_zero(),
+       {"--gap", &own->gap, "join solids that are at most this far apart, such as \"0.1 mm\""},
+       CommandOption{"--bodies", &own->bodies, "expected number of separate bodies"}.above_zero(),
+       CommandOption{"--overlaps", &own->overlaps,
+                     "refused (default), or once: the common volume of solids is assigned to the first"}
            .one_of({"refused", "once"}),
        CommandOption{"--plates", &own->plates, "tetrahedra, or swept: hexahedra through the thickness of walls"}.one_of(
            {"tetrahedra", "swept"}),
        {"--density", &own->density,
-        "of all solids, such as \"2700 kg/m^3\" (default: of the STEP file, else of steel)"},
-       {"--sew", &own->sew, "join edges of open shells at most that far apart, such as \"0.05 mm\""},
+        "density of all solids, such as \"2700 kg/m^3\" (default: that of the STEP file, else steel)"},
+       {"--sew", &own->sew, "join edges of open shells that are at most this far apart, such as \"0.05 mm\""},
        {"--defeature", &own->defeature, "remove faces and edges smaller than this, such as \"2 mm\""},
-       {"--selectors", &own->selectors, "write surfaces as entries [frame.surface.NAME] of a scene"}},
+       {"--selectors", &own->selectors, "print surfaces as tables [frame.surface.NAME] of a scene"}},
       [own](const CommonOptions &options) { return make_mesh(options, *own); }};
 }
 

@@ -61,8 +61,8 @@ void print_poles(const std::vector<coupling::Pole> &poles)
 {
   if (poles.empty())
     return;
-  std::cout << "with drives and controllers, at the speeds of the start\n"
-               "  damped frequency [Hz]   damping ratio       real part [1/s]   moves most\n";
+  std::cout << "with drives and controllers, at the speeds of the start\n  damped frequency [Hz]   damping ratio       "
+               "real part [1/s]   dominant DOF\n";
   for (const coupling::Pole &pole : poles)
     std::cout << std::setw(23) << (pole.vibrates() ? short_text(pole.frequency_hz(), 6) : "-") << std::setw(16)
               << (pole.vibrates() ? short_text(pole.damping_ratio()) : "-") << std::setw(22)
@@ -95,8 +95,7 @@ void print_coupled_modes(const Result &result)
     std::cout << "coupled machine: the modes of the frame, nothing changes them\n";
     return;
   }
-  print_modes("coupled machine", result.coupled_modes, "free motion: nothing elastic holds it",
-              result.model.frequency_limit);
+  print_modes("coupled machine", result.coupled_modes, "rigid-body mode: no stiffness", result.model.frequency_limit);
   print_energies(result);
 }
 
@@ -173,24 +172,23 @@ Command modes_command()
   const auto                 more      = analyses_of("modes");
   std::vector<CommandOption> options   = {
         CommandOption{"--converge", &mesh->converge,
-                    "refine the frame's mesh until frequencies and compliances are within this share, such as 0.01; "
-                      "tell error and uncertainty"}
+                    "refine the mesh of the frame until frequencies and compliances are within this relative error, "
+                      "such as 0.01; print error and uncertainty"}
             .above_zero(),
-        CommandOption{"--frequencies", &mesh->frequencies, "lowest elastic ones of the frame to converge (default 4)"}
+        CommandOption{"--frequencies", &mesh->frequencies, "number of elastic frequencies that must converge (default 4)"}
             .above_zero()
             .with("--converge"),
-        CommandOption{"--watch", &mesh->watch,
-                    "what is to converge: all, or frequencies without compliances (default all)"}
+        CommandOption{"--watch", &mesh->watch, "quantities that must converge: all (default), or frequencies"}
             .one_of({"all", "frequencies"})
             .with("--converge"),
-        CommandOption{"--max-coordinates", &mesh->max_coordinates, "of the finest mesh (default 1000000)"}
+        CommandOption{"--max-coordinates", &mesh->max_coordinates, "largest number of DOFs of a mesh (default 1000000)"}
             .above_zero()
             .with("--converge"),
-        CommandOption{"--geometric", geometric.get(), "on (default) or off: geometric stiffness of forces that turn"}
+        CommandOption{"--geometric", geometric.get(), "on (default) or off: geometric stiffness of rotating forces"}
             .one_of({"on", "off"})};
   add_options(more, options);
   return {"modes",
-          "natural frequencies and shapes of the frame and of the coupled machine",
+          "natural frequencies and mode shapes of the frame and of the coupled machine",
           {"gestell modes apps/scenes/press_minimal.toml", "gestell modes apps/scenes/press_minimal.toml --along crank",
            "gestell modes apps/scenes/press.toml --compare apps/scenes/press_minimal.toml"},
           CommandInput::scene,

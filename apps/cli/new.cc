@@ -49,7 +49,7 @@ void require_free(const std::filesystem::path &file)
 {
   if (fem::names_something(file) || std::filesystem::is_symlink(std::filesystem::symlink_status(file)))
     throw std::invalid_argument(
-        file.string() + " is there already and stays as it is; give another name: " + "gestell new KIND other.toml");
+        file.string() + " already exists and is left unchanged; give another name: " + "gestell new KIND other.toml");
 }
 
 int make_new(const NewOptions &options)
@@ -89,10 +89,10 @@ Command new_command()
 {
   const auto own = std::make_shared<NewOptions>();
   return {"new",
-          "write a scene to start from, with its frame",
+          "write a commented scene to start from, with its frame",
           {"gestell new press", "gestell new cam my_cam.toml"},
           CommandInput::none,
-          {CommandOption{"KIND", &own->kind, "of machine (default: the list of kinds)"}.proposing(kinds()),
+          {CommandOption{"KIND", &own->kind, "kind of machine (default: print the list of kinds)"}.proposing(kinds()),
            {"FILE", &own->file, "scene to write (default KIND.toml)"}},
           [own](const CommonOptions &) { return make_new(*own); }};
 }

@@ -190,22 +190,22 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
 Command reduce_command()
 {
   const auto own = std::make_shared<ReduceCommandOptions>();
-  return {"reduce",
-          "build (or reuse) the reduced frame and report its error estimate",
-          {"gestell reduce apps/scenes/press.toml --set reduction.modes=40",
-           "gestell reduce --explain apps/scenes/press.toml", "gestell reduce --prune --older-than '30 d' --list"},
-          CommandInput::scene_or_none,
-          {{"--export", &own->export_format, "write the reduced matrices, too: matrix-market, petsc or dmig (Nastran)"},
-           {"--partition", &own->partition,
-            "why every coordinate of the interfaces is kept, and interfaces that are superfluous, instead"},
-           {"--list", &own->list, "the frames in the cache instead"},
-           {"--explain", &own->explain, "why the scene's frame is in the cache or not, instead"},
-           {"--prune", &own->prune, "remove what cannot be used from the cache, and what these name:"},
-           {"--older-than", &own->older_than, "frames not used for so long, such as \"30 d\""},
-           {"--larger-than", &own->larger_than, "frames of more than, such as \"100 MB\""},
-           {"--all", &own->all, "all frames"},
-           {"--check", &own->check, "with --list or --prune: compare every file with its checksum"}},
-          [own](const CommonOptions &options) { return reduce_frame(options, *own); }};
+  return {
+      "reduce",
+      "build (or reuse) the reduced frame and report its error estimate",
+      {"gestell reduce apps/scenes/press.toml --set reduction.modes=40",
+       "gestell reduce --explain apps/scenes/press.toml", "gestell reduce --prune --older-than '30 d' --list"},
+      CommandInput::scene_or_none,
+      {{"--export", &own->export_format, "also write the reduced matrices: matrix-market, petsc or dmig (Nastran)"},
+       {"--partition", &own->partition, "only print why each interface DOF is retained, and superfluous interfaces"},
+       {"--list", &own->list, "only list the frames in the cache"},
+       {"--explain", &own->explain, "only explain why the frame of the scene is in the cache or not"},
+       {"--prune", &own->prune, "remove unusable files from the cache, and those selected by the following options"},
+       {"--older-than", &own->older_than, "with --prune: frames not used for this time, such as \"30 d\""},
+       {"--larger-than", &own->larger_than, "with --prune: frames larger than this, such as \"100 MB\""},
+       {"--all", &own->all, "with --prune: all frames"},
+       {"--check", &own->check, "with --list or --prune: compare every file with its checksum"}},
+      [own](const CommonOptions &options) { return reduce_frame(options, *own); }};
 }
 
 } // namespace gestell::apps

@@ -189,11 +189,10 @@ Command run_command()
   const auto                 requested = std::make_shared<CheckpointRequest>();
   const auto                 more      = analyses_of("run");
   std::vector<CommandOption> options   = {
-        {"--resume", &requested->resume,
-         "go on from the checkpoint that a run of the same scene left in its folder when it was stopped"},
+        {"--resume", &requested->resume, "continue a stopped run of the same scene from the checkpoint in its folder"},
         {"--checkpoint", &requested->every,
-         "seconds between two checkpoints (default 30; more where they would take more than half a per cent of the "
-           "time), 0: when interrupted alone"}};
+         "seconds between two checkpoints (default 30, or more so that they take at most 0.5 % of the time); 0: only at "
+           "interruption"}};
   add_options(more, options);
   return {"run",
           "simulate a scene in time",

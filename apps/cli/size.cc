@@ -109,21 +109,21 @@ int size_scene(const CommonOptions &options, const SizeCommand &requested)
 Command size_command()
 {
   const auto requested = std::make_shared<SizeCommand>();
-  return {
-      "size",
-      "find the smallest mesh, number of modes and integration that keep the outputs within a tolerance",
-      {"gestell size apps/scenes/press.toml --tolerance 0.01 --outputs F_P.max,F_P.min"},
-      CommandInput::scene,
-      {{"--tolerance", &requested->tolerance, "relative error that each output may have, 1e-8 to 1 (demanded)",
-        CommandOption::Range::above_zero},
-       {"--outputs", &requested->outputs,
-        "that count, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)"},
-       {"--max-cpu", &requested->max_cpu, "[s] that a model may take, from CAD to the end of the run",
-        CommandOption::Range::above_zero},
-       {"--exhaustive", &requested->exhaustive,
-        "try every model up to one rung finer than the chosen one, too, to show what the search has missed"},
-       {"--max-memory", &requested->max_memory_gb, "[GB] that the program may take", CommandOption::Range::above_zero}},
-      [requested](const CommonOptions &options) { return size_scene(options, *requested); }};
+  return {"size",
+          "find the cheapest adequate model: mesh, modes and time integration for a tolerance of the outputs",
+          {"gestell size apps/scenes/press.toml --tolerance 0.01 --outputs F_P.max,F_P.min"},
+          CommandInput::scene,
+          {{"--tolerance", &requested->tolerance, "tolerated relative error of each output, 1e-8 to 1 (required)",
+            CommandOption::Range::above_zero},
+           {"--outputs", &requested->outputs,
+            "outputs, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)"},
+           {"--max-cpu", &requested->max_cpu, "largest CPU time [s] of a model, from CAD to the end of the run",
+            CommandOption::Range::above_zero},
+           {"--exhaustive", &requested->exhaustive,
+            "also run every model up to one level finer than the chosen one, to verify the search"},
+           {"--max-memory", &requested->max_memory_gb, "largest memory of the program [GB]",
+            CommandOption::Range::above_zero}},
+          [requested](const CommonOptions &options) { return size_scene(options, *requested); }};
 }
 
 } // namespace gestell::apps

@@ -39,7 +39,7 @@ void require_atlas(const std::filesystem::path &file, const std::filesystem::pat
   if (there ? heading != "# Failure atlas" : std::filesystem::exists(std::filesystem::symlink_status(figures)))
     throw std::invalid_argument(
         "--atlas: " + (there ? file : figures).string() +
-        " is there already and is no failure atlas, so that it is not replaced; give another name");
+        " already exists and is not a failure atlas, so that it is not replaced; give another name");
 }
 
 /// Writes the failure atlas to `file` (Markdown) and its figures into a folder next to it; returns an ExitCode.
@@ -171,13 +171,12 @@ Command stability_command()
 {
   const auto own = std::make_shared<StabilityCommandOptions>();
   return {"stability",
-          "stability and accuracy maps of the integrators, over a scene's own modes",
+          "stability and accuracy maps of the integrators, with the modes of a scene",
           {"gestell stability apps/scenes/press_minimal.toml --zeta 0,0.02"},
           CommandInput::scene_or_none,
           {{"--zeta", &own->zetas, "damping ratios of the maps (default 0,0.01,0.05)"},
-           CommandOption{"--step", &own->step, "step [s] at which the scene's modes are shown (default run.step)"}
-               .above_zero(),
-           {"--atlas", &own->atlas, "write the failure atlas into this file (Markdown) instead"}},
+           CommandOption{"--step", &own->step, "step [s] for the modes of the scene (default run.step)"}.above_zero(),
+           {"--atlas", &own->atlas, "only write the failure atlas to this file (Markdown)"}},
           [own](const CommonOptions &options) { return map_stability(options, *own); }};
 }
 

@@ -157,14 +157,14 @@ int study_scene(const CommonOptions &options, const StudyCommand &requested)
 Command study_command()
 {
   const auto requested = std::make_shared<StudyCommand>();
-  return {
-      "study",
-      "sweep, design of experiments or optimisation over a scene",
-      {"gestell study apps/studies/press_24.toml --jobs 2"},
-      CommandInput::study,
-      {{"--resume", &requested->resume, "go on with the study whose rows the folder holds"},
-       {"--share", &requested->share, "make this part of the runs alone, such as 3/10; a call without it merges them"}},
-      [requested](const CommonOptions &options) { return study_scene(options, *requested); }};
+  return {"study",
+          "sweep, design of experiments or optimisation over a scene",
+          {"gestell study apps/studies/press_24.toml --jobs 2"},
+          CommandInput::study,
+          {{"--resume", &requested->resume, "continue the study in the folder"},
+           {"--share", &requested->share,
+            "run only this share of the runs, such as 3/10; a call without it merges the shares"}},
+          [requested](const CommonOptions &options) { return study_scene(options, *requested); }};
 }
 
 } // namespace gestell::apps

@@ -45,7 +45,7 @@ void require_same_calls(const coupling::Launch &launched, const std::string &wor
     return;
   throw std::invalid_argument(
       std::string(launched.by) + ": " + std::to_string(n_others) + " of " + std::to_string(launched.size) +
-      " ranks were called by other words, or in another folder, than rank 0 (gestell" + words + ", in " +
+      " ranks were started with another command line or working directory than rank 0 (gestell" + words + ", in " +
       working_folder() + "), but ranks compute one thing together; call all of them alike, or say " +
       coupling::way_of_cases);
 }

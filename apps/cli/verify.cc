@@ -181,7 +181,7 @@ int verify(const VerifyOptions &requested)
                     writing.write("verification.html", verification_page(all));
                   });
   if (!requested.docs.empty())
-    write_file(fs::path(requested.docs) / "verification.md", verification_document(all));
+    write_file(fs::path(requested.docs) / "trust/verification.md", verification_document(all));
   std::cout << verdict_text(all) << "\nmanual: " << (folder / "verification.html").string() << '\n';
   return all.n_failed() == 0 ? exit_done : exit_failed;
 }
@@ -193,15 +193,14 @@ Command verify_command()
   const auto own = std::make_shared<VerifyOptions>();
   return {
       "verify",
-      "compute reference cases anew and set them beside what is expected",
+      "compute reference cases and compare them with expected values",
       {"gestell verify --all", "gestell verify my_cases.toml", "gestell verify \"rod force after the cutting shock\""},
       CommandInput::none,
-      {{"CASE", &own->cases,
-        "files of cases (.toml), or names of cases and files shipped (default: all but long ones)"},
+      {{"CASE", &own->cases, "case files (.toml), or names of shipped cases and files (default: all except long ones)"},
        {"-o,--output", &own->folder, "folder for the manual (default results/verification)"},
-       {"--all", &own->all, "long cases, too"},
-       {"--list", &own->list, "name the cases, instead"},
-       {"--renew", &own->docs, "write verification.md in this folder of documents as well"}},
+       {"--all", &own->all, "include long cases"},
+       {"--list", &own->list, "only list the cases"},
+       {"--renew", &own->docs, "also write trust/verification.md in this folder of documents"}},
       [own](const CommonOptions &) { return verify(*own); }};
 }
 

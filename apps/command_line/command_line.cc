@@ -92,14 +92,13 @@ void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
       ->required(input != CommandInput::scene_or_none);
   command
       .add_option("--jobs", options.jobs,
-                  study
-                      ? "processes that make runs side by side (default 1)"
-                      : "threads of the linear algebra that makes a frame, or parts of its mesh at a time (default 1)")
+                  study ? "number of processes that make runs (default 1)"
+                        : "threads of linear algebra for the frame, or number of parts reduced at a time (default 1)")
       ->check(above_zero());
   command.add_flag("--quiet", options.quiet, "no progress on standard error");
   command.add_flag_callback(
       "--trust-scripts", [&options] { options.scripts = fem::Scripts::trusted; },
-      "run scripts of gmsh (.geo) as they are, which may run programs and write files");
+      "accept gmsh scripts (.geo) unchecked; they may run programs and write files");
   if (cad)
     return;
   command
@@ -109,8 +108,8 @@ void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
       ->check(not_empty());
   command
       .add_option("--set", options.overrides,
-                  study ? "override an entry of the study or of its scene: key.path=value"
-                        : "override an entry of the scene: key.path=value")
+                  study ? "override a key of the study or of its scene: key.path=value"
+                        : "override a scene key: key.path=value")
       ->allow_extra_args(false);
 }
 
@@ -157,8 +156,8 @@ void add_command(CLI::App &program, const Command &command, CommonOptions &optio
   for (const std::string &example : command.examples)
     footer += "\n  " + example;
   added->footer(footer);
-  added->add_flag("--json", "one JSON document on standard output in place of text");
-  added->add_flag("--apart", "a case of its own per process of mpirun or srun (also by GESTELL_APART=1)");
+  added->add_flag("--json", "one JSON document on standard output instead of text");
+  added->add_flag("--apart", "each process of mpirun or srun computes its own case (also by GESTELL_APART=1)");
   add_input(*added, command.input, options);
   for (const CommandOption &option : command.options)
     add_option(*added, option);
@@ -168,8 +167,8 @@ void add_command(CLI::App &program, const Command &command, CommonOptions &optio
 
 std::unique_ptr<CLI::App> command_line(const std::vector<Command> &all, CommonOptions &options)
 {
-  auto program = std::make_unique<CLI::App>(
-      "Gestell computes how a machine and the frame that carries it shake each other.", "gestell");
+  auto program =
+      std::make_unique<CLI::App>("Gestell computes vibrations of a machine together with its frame.", "gestell");
   program->set_version_flag("--version",
                             std::string("gestell ") + version + (commit().empty() ? "" : " (" + commit() + ")"));
   program->require_subcommand(1);
@@ -190,7 +189,7 @@ std::invalid_argument refused(const CLI::App &program, const std::string &why)
   const bool        known = !program.get_subcommands().empty();
   const std::string name  = known ? program.get_subcommands().front()->get_name() : "";
   return std::invalid_argument((known ? name + ": " : "") + why + "; gestell " + (known ? name + ' ' : "") +
-                               "--help tells what it takes");
+                               "--help lists its arguments");
 }
 
 std::invalid_argument unexpected(const CLI::App &program)
@@ -204,7 +203,7 @@ std::invalid_argument unexpected(const CLI::App &program)
   return std::invalid_argument(command->get_name() + ": " +
                                (word.front() == '-'
                                     ? "there is no option " + word + suggestion(word, options)
-                                    : "'" + word + "' is one input too many; names with spaces stand in quotes"));
+                                    : "'" + word + "' is an unexpected extra argument; names with spaces need quotes"));
 }
 
 } // namespace gestell::apps

@@ -69,17 +69,17 @@ done
 wrong input or usage
 .TP
 3
-the computation failed; what was computed up to then is kept
+the computation failed; results up to that point are saved
 .TP
 130
-interrupted; what was computed is kept
+interrupted; results up to that point are saved
 .SH ENVIRONMENT
 .TP
 \fBGESTELL_CACHE\fR
 folder of reduced frames (default: gestell in \fBXDG_CACHE_HOME\fR, or in ~/.cache)
 .TP
 \fBGESTELL_APART\fR
-"1": as the option --apart, every process of mpirun or srun for itself
+"1": as the option --apart, each process of mpirun or srun computes its own case
 .TP
 \fBGESTELL_KERNELS\fR
 "portable": triangular solves without the vector instructions of this processor
@@ -89,19 +89,19 @@ folder of reduced frames (default: gestell in \fBXDG_CACHE_HOME\fR, or in ~/.cac
 a machine in its frame, a TOML file; \fBgestell new\fR writes one, \fBgestell help\fR explains its keys
 .TP
 .I results/NAME/report.html
-what was computed, with histories, peaks, modes and pictures
+report with histories, peaks, modes and pictures
 .TP
 .I results/NAME/summary.json
-the same as data; history.csv beside it has the signals over time, motion.pvd the motion for ParaView
+results as data; history.csv contains the signals over time, motion.pvd the motion for ParaView
 )";
 
 } // namespace
 
 std::string man_page(const CLI::App &program, const std::vector<Command> &all)
 {
-  std::string text = std::string(".TH GESTELL 1 \"\" \"gestell ") + version +
-                     "\" \"User Commands\"\n.SH NAME\ngestell \\- vibrations of a machine and of the frame that "
-                     "carries it\n.SH SYNOPSIS\n";
+  std::string text =
+      std::string(".TH GESTELL 1 \"\" \"gestell ") + version +
+      "\" \"User Commands\"\n.SH NAME\ngestell \\- vibrations of a machine together with its frame\n.SH SYNOPSIS\n";
   for (const Command &command : all)
     text += synopsis(command) + "\n.br\n";
   text += ".SH DESCRIPTION\n" + plain(program.get_description()) + "\n.SH COMMANDS\n";

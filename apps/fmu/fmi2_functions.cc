@@ -357,7 +357,7 @@ FMI2_SHOWN fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2Val
                     {
                       const Variable variable = variable_of(*own.model, references[i]);
                       if (variable.group != Variable::input)
-                        throw std::invalid_argument("'" + variable.variable.name + "' is no input");
+                        throw std::invalid_argument("'" + variable.variable.name + "' is not an input");
                       if (orders[i] != 1)
                         throw std::invalid_argument("the derivative of order " + std::to_string(orders[i]) + " of '" +
                                                     variable.variable.name +

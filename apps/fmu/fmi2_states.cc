@@ -40,11 +40,11 @@ KeptState kept_of(const std::string &bytes)
   constexpr std::size_t head_size = 2 + sizeof(double); // phase, flag and one number
   const int             phase     = bytes.size() < head_size ? -1 : bytes[0] - '0';
   if (phase < 0 || phase > int(Phase::terminated) || (bytes[1] != '0' && bytes[1] != '1'))
-    throw std::invalid_argument("these bytes are no state of an FMU of Gestell");
+    throw std::invalid_argument("these bytes are not a state of an FMU of Gestell");
   KeptState kept{FmuState::of_bytes(bytes.substr(head_size)), Phase(phase), bytes[1] == '1', 0.};
   std::memcpy(&kept.stop, bytes.data() + 2, sizeof kept.stop);
   if (kept.stops && !std::isfinite(kept.stop))
-    throw std::invalid_argument("the state holds a stop time that is no finite number; its bytes are damaged");
+    throw std::invalid_argument("the state holds a stop time that is not a finite number; its bytes are damaged");
   return kept;
 }
 

@@ -59,7 +59,7 @@ public:
 
   [[noreturn]] static void fail()
   {
-    throw std::invalid_argument("these bytes are no state of an FMU of Gestell, or only a part of one");
+    throw std::invalid_argument("these bytes are not a state of an FMU of Gestell, or only a part of one");
   }
 
 private:

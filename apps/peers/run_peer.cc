@@ -53,7 +53,7 @@ void check(const coupling::SecondOrderSystem &system, const PeerProblem &problem
               "; BDF has 1 to 5 (PETSc 6), Adams 1 to 12, explicit Runge-Kutta 3, 4, 5, 6 or 8.");
   require((options.kind == PeerKind::petsc_alpha) == (options.step > 0.),
           "PETSc alpha2 takes a fixed step, all others choose theirs.");
-  require(!petsc || !options.events, "PETSc passes over events; leave them out.");
+  require(!petsc || !options.events, "PETSc does not locate events; leave them out.");
   require(!petsc || options.solver == PeerSolver::condensed, "PETSc has the condensed solver only.");
 }
 

@@ -122,7 +122,7 @@ SceneNode node_of(py::handle value, const Place &place, const std::string &folde
     return array_node(node, key, value);
   refuse(node, key,
          "got " + written(value) + " of type " + py::str(py::type::of(value).attr("__name__")).cast<std::string>() +
-             "; an entry of a scene is a number, text with a unit, True or False, a list or a dict");
+             "; a scene key is a number, text with a unit, True or False, a list or a dict");
 }
 
 py::object value_of(const SceneNode &node)

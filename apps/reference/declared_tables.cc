@@ -4,6 +4,7 @@
 #include "apps/scene/elements/element_types.h"
 #include "apps/scene/joints/compliance.h"
 #include "apps/scene/joints/joint_friction.h"
+#include "apps/scene/joints/joint_keys.h"
 #include "apps/scene/joints/joint_types.h"
 #include "apps/scene/read/frame/geometry_keys.h"
 #include "apps/scene/read/frame/matrix_keys.h"
@@ -21,6 +22,7 @@
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gestell::apps
@@ -44,40 +46,39 @@ void add_frame(Tables &tables)
                        const std::vector<Key> &keys) {
     tables.push_back({path, heading, "", does, "", keys, {}});
   };
-  add("frame", "[frame]",
-      "The frame from CAD or a mesh, or already reduced; without it the machine stands on the ground.", frame_keys());
-  add("frame.mesh", "mesh of [frame]", "The mesh; every other key is a pattern of surface names with a size there.",
-      mesh_keys());
+  add("frame", "[frame]", "Frame from CAD or a mesh, or already reduced; without it the machine is on rigid ground.",
+      frame_keys());
+  add("frame.mesh", "mesh of [frame]",
+      "Mesh; every other key is a pattern of surface names with the element size there.", mesh_keys());
   add("frame.surface", "[frame.surface.NAME]",
-      "Names faces of the model by what one can see of them; all conditions given must hold.", surface_keys());
-  add("frame.support", "[frame.support.NAME]", "Holds surfaces, by `clamped` or a `foundation`.", support_keys());
+      "Named selection of faces by their geometry; all given conditions must be met.", surface_keys());
+  add("frame.support", "[frame.support.NAME]", "Support of surfaces, `clamped` or on an elastic `foundation`.",
+      support_keys());
   add("frame.interface", "[frame.interface.NAME]",
-      "A node with six motions that the mechanism acts on as `frame.NAME`; with `coupling = \"node\"` it has three.",
+      "Interface `frame.NAME` to the mechanism: a node with six DOFs, with `coupling = \"node\"` three.",
       interface_keys());
-  add("frame.mass", "[frame.mass.NAME]", "A rigid body fastened to the frame: a motor, a counterweight.",
+  add("frame.mass", "[frame.mass.NAME]", "Rigid body fastened to the frame, such as a motor or a counterweight.",
       attached_mass_keys());
   add("frame.cut", "[frame.cut.NAME]",
-      "Signal `frame.cut.NAME`: the force along the normal that the plane transmits, tension positive.", cut_keys());
-  add("parts", "[frame]", "The frame in several parts, each reduced by itself and joined with the others.",
-      parts_frame_keys());
+      "Cut plane; signal `frame.cut.NAME`: transmitted force along the normal, tension positive.", cut_keys());
+  add("parts", "[frame]", "Frame in several parts, which are reduced separately and then joined.", parts_frame_keys());
   add("frame.part", "[frame.part.NAME]",
-      "A part of the frame, with its own surfaces, interfaces `frame.NAME.INTERFACE`, supports, masses and cuts.",
+      "Part of the frame, with its own surfaces, interfaces `frame.NAME.INTERFACE`, supports, masses and cuts.",
       frame_part_keys());
   add("frame.joint", "[frame.joint.NAME]",
-      "Holds two parts together; signals `frame.joint.NAME.fx` to `mz` and `normal_force`, of a tie rod `force`.",
+      "Joint of two parts; signals `frame.joint.NAME.fx` to `mz` and `normal_force`, for a tie rod `force`.",
       frame_joint_keys());
-  add("matrices", "[frame]", "The frame given by matrices, M q'' + B q' + C q = f.", matrix_frame_keys());
-  add("matrices.file_units", "[frame.file_units]", "What one of each is in the files of another program.",
-      file_unit_keys());
-  add("matrices.interface", "[frame.interface.NAME]", "Rows of the matrices that are motions of a node.",
+  add("matrices", "[frame]", "Frame given by matrices, M q'' + B q' + C q = f.", matrix_frame_keys());
+  add("matrices.file_units", "[frame.file_units]", "Units in the files of another program.", file_unit_keys());
+  add("matrices.interface", "[frame.interface.NAME]", "Interface: rows of the matrices that are DOFs of a node.",
       matrix_interface_keys());
-  add("matrices.cut", "[frame.cut.NAME]", "Signal `frame.cut.NAME` of a frame given by matrices.",
+  add("matrices.cut", "[frame.cut.NAME]", "Signal `frame.cut.NAME` for a frame given by matrices.",
       matrix_output_keys());
   add("matrices.support", "[frame.support.NAME]",
-      "Signal `frame.support.NAME` of a frame given by matrices, or a table for each direction.",
+      "Signal `frame.support.NAME` for a frame given by matrices, or a table for each direction.",
       matrix_support_keys());
-  add("material", "[material.NAME]", "A material of the frame and of bodies from CAD.", material_keys());
-  add("reduction", "[reduction]", "How the frame is reduced.", reduction_keys());
+  add("material", "[material.NAME]", "Material of the frame and of bodies from CAD.", material_keys());
+  add("reduction", "[reduction]", "Reduction of the frame.", reduction_keys());
 }
 
 void add_rest(Tables &tables)
@@ -86,38 +87,33 @@ void add_rest(Tables &tables)
                        const std::vector<Key> &keys) {
     tables.push_back({path, heading, "", does, "", keys, {}});
   };
-  add("switch", "[switch.NAME]", "Gives elements and joints orders at the instant where a signal crosses a value.",
+  add("switch", "[switch.NAME]", "Switch: sends a command to elements or joints when a signal crosses a threshold.",
       switch_keys());
-  add("start", "[start]", "The state the run starts from; without it everything is zero.", start_keys());
-  add("run", "[run]", "The run in time.", run_keys());
-  add("modes", "[modes]", "Modes of the coupled machine with closed chains.", modes_keys());
-  add("output", "[output]", "Signals, and the times between rows and pictures.", output_keys());
-  add("output.signal", "[output.signals.NAME]", "A signal whose extremes count from an event on.",
-      watched_signal_keys());
+  add("start", "[start]", "Initial state of the run; without it all coordinates and velocities are zero.",
+      start_keys());
+  add("run", "[run]", "Time integration.", run_keys());
+  add("modes", "[modes]", "Modes of the coupled machine with closed contacts.", modes_keys());
+  add("output", "[output]", "Signals, and the intervals of rows and pictures.", output_keys());
+  add("output.signal", "[output.signals.NAME]", "Signal whose extremes count after an event.", watched_signal_keys());
   add("output.stress", "[output.stress]",
       "Stresses at the skin of a frame from `cad`; an empty table means the largest stress.", stress_keys());
-  add("output.stages", "[output.stages]", "Parts of the run between events, and what rings in the last one.",
-      stage_keys());
+  add("output.stages", "[output.stages]",
+      "Stages of the run between events, and identified vibrations of the last one.", stage_keys());
 }
 
 Tables make_tables()
 {
   Tables tables;
-  tables.push_back({"scene", "", "", "What stands above all tables, and these.", "", scene_keys(), {}});
+  tables.push_back({"scene", "", "", "Top-level keys.", "", scene_keys(), {}});
   add_frame(tables);
   for (const BodyType &type : body_types())
     tables.push_back({"body." + type.name, "[body.NAME]", type.name, type.does, "", type.keys, {}});
   tables.push_back(
-      {"place", "[place.NAME]", "", "A point of a body, an interface or the ground.", "", place_keys(), {}});
+      {"place", "[place.NAME]", "", "Marker: a point of a body, an interface or the ground.", "", place_keys(), {}});
   add_types(tables, "measure", measure_types());
   add_types(tables, "joint", joint_types());
-  tables.push_back({"element",
-                    "[element.NAME]",
-                    "",
-                    "What every [element.NAME] has, beside the keys of its type.",
-                    "",
-                    common_element_keys(),
-                    {}});
+  tables.push_back(
+      {"element", "[element.NAME]", "", "Common keys of every [element.NAME].", "", common_element_keys(), {}});
   for (const ElementType &type : element_types())
     tables.push_back(
         {"element." + type.name, "[element.NAME]", type.name, type.does, type.signals, type.keys, type.examples});
@@ -141,14 +137,6 @@ std::string kind_text(const Kind &kind)
   return kind.name + (unit.empty() ? "" : " " + unit);
 }
 
-std::string names_of(const std::vector<Key> &keys)
-{
-  std::string names;
-  for (const Key &key : keys)
-    names += (names.empty() ? "`" : ", `") + key.name + "`";
-  return names;
-}
-
 std::string range_text(Key::Range range)
 {
   switch (range)
@@ -165,10 +153,10 @@ std::string range_text(Key::Range range)
   return "";
 }
 
-/// "a, b" of a table, nothing of one whose keys are declared by themselves.
+/// " with a, b" for a table; empty if its keys are declared separately.
 std::string of_keys(const Key &key)
 {
-  return key.keys.empty() ? "" : " of " + names_of(key.keys);
+  return key.keys.empty() ? "" : " with " + quoted_names(key.keys);
 }
 
 std::string form_text(Key::Form form, const Key &key, const std::string &kinds)
@@ -178,10 +166,11 @@ std::string form_text(Key::Form form, const Key &key, const std::string &kinds)
   case Key::Form::number:
     return kinds;
   case Key::Form::formula:
-    return "formula of " + kinds;
+    return "formula, " + kinds;
   case Key::Form::profile:
   case Key::Form::course:
-    return kinds + ", or ramps" + (form == Key::Form::course ? ", or a function" : "") + " of " + names_of(key.keys);
+    return kinds + ", or ramps" + (form == Key::Form::course ? ", or a function" : "") + ", with " +
+           quoted_names(key.keys);
   case Key::Form::truth:
     return "true or false";
   case Key::Form::choice:
@@ -191,33 +180,44 @@ std::string form_text(Key::Form form, const Key &key, const std::string &kinds)
   case Key::Form::direction:
     return "direction [x, y, z]";
   case Key::Form::vector:
-    return "three of " + kinds;
+    return "[x, y, z]: " + kinds;
   case Key::Form::rows:
-    return "rows of two values, the second " + kinds;
+    return "list of pairs, second value: " + kinds;
   case Key::Form::whole:
-    return "whole number";
+    return "integer";
   case Key::Form::quantity:
-    return "value with its unit";
+    return "value with unit";
   case Key::Form::numbers:
-    return "array of " + kinds;
+    return "list of values: " + kinds;
   case Key::Form::matrix:
-    return "rows of " + kinds;
+    return "matrix (list of rows): " + kinds;
   case Key::Form::text:
-    return "text";
+    return "string";
   case Key::Form::texts:
-    return "text, or an array of texts";
+    return "string or list of strings";
   case Key::Form::file:
     return "file";
   case Key::Form::table:
     return "table" + of_keys(key);
   case Key::Form::map:
-    return "table of names" + (key.keys.empty() ? "" : " and " + names_of(key.keys));
+    return "table {name = value}" + (key.keys.empty() ? "" : ", with keys " + quoted_names(key.keys));
   case Key::Form::tables:
-    return "array of tables of " + names_of(key.keys);
+    return "list of tables with " + quoted_names(key.keys);
   case Key::Form::coefficient:
-    return kinds + ", or a table of " + names_of(key.keys);
+    return kinds + ", or a table with " + quoted_names(key.keys);
   }
   return "";
+}
+
+/// Keys of a type of elements that other types have as well.
+std::vector<Key> keys_of(const std::string &type, const std::vector<std::string> &names)
+{
+  std::vector<Key> keys;
+  for (const ElementType &element : element_types())
+    for (const Key &key : element.keys)
+      if (element.name == type && std::find(names.begin(), names.end(), key.name) != names.end())
+        keys.push_back(key);
+  return keys;
 }
 
 } // namespace
@@ -233,14 +233,29 @@ const std::vector<KeyGroup> &key_groups()
   static const std::vector<KeyGroup> groups = {
       {{"body"}, "Body from CAD", part_keys()},
       {{"measure", "joint"}, "Position function", position_function_keys()},
+      {{"measure"}, "Points of a measure", place_on_ground()},
+      {{"joint"}, "Points of a joint", one_point()},
       {{"joint"}, "Motion over time", motion_law_keys(), "motion"},
       {{"joint"}, "Compliance of a joint", compliance_keys()},
       {{"joint"}, "Friction of a joint", joint_friction_key().keys, "friction"},
       {{"element"}, "Motion of an element", load_motion_keys()},
       {{"element"}, "Shaft of a motor", shaft_keys()},
+      {{"element"},
+       "Asynchronous motors",
+       keys_of("dynamic motor", {"breakdown_torque", "breakdown_slip", "synchronous_speed", "ratio"})},
+      {{"element"}, "Friction curve", keys_of("friction", {"stribeck_speed", "stribeck_exponent", "viscous"})},
+      {{"element"}, "Bearing", keys_of("rolling bearing", {"from", "to", "at", "at_from", "at_to", "axis"})},
       {{"element"}, "Stiffness of a contact", joined({contact_keys(), {sliding_friction_key()}})},
       {{"element"}, "Friction of a contact", sliding_friction_key().keys, "friction"}};
   return groups;
+}
+
+std::string quoted_names(const std::vector<Key> &keys)
+{
+  std::string names;
+  for (const Key &key : keys)
+    names += (names.empty() ? "`" : ", `") + key.name + "`";
+  return names;
 }
 
 std::string taken_by(const Key &key)
@@ -255,7 +270,7 @@ std::string taken_by(const Key &key)
 std::string default_of(const Key &key)
 {
   if (key.demanded)
-    return "demanded";
+    return "required";
   if (key.form == Key::Form::choice)
     return "\"" + key.choices.front() + "\"";
   if (key.form == Key::Form::truth)

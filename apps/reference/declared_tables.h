@@ -33,9 +33,11 @@ struct KeyGroup
 };
 const std::vector<KeyGroup> &key_groups();
 
+/// "`a`, `b`".
+std::string quoted_names(const std::vector<Key> &keys);
 /// Type of a key, for people: "stiffness [N/m], about an axis [N m], above 0".
 std::string taken_by(const Key &key);
-/// "0", "none", "demanded".
+/// "0", "none", "required".
 std::string default_of(const Key &key);
 
 } // namespace gestell::apps

@@ -31,7 +31,7 @@ std::string key_text(const Key &key, const std::string &before = "")
   const std::string own  = default_of(key);
   std::string       text = padded(before + key.name) + plain(key.meaning) + ": " + taken_by(key) +
                      (own.empty()         ? ""
-                      : own == "demanded" ? "; demanded"
+                      : own == "required" ? "; required"
                                           : "; default " + plain(own)) +
                      "\n";
   for (const Key &inner : key.keys)
@@ -54,7 +54,7 @@ std::string table_text(const DeclaredTable &table)
 
 std::string list_of_tables()
 {
-  std::string text = "Tables of a scene, and of a study; gestell help TABLE lists their keys.\n\n";
+  std::string text = "Tables of scenes and studies; gestell help TABLE lists their keys.\n\n";
   for (const DeclaredTable &table : told_tables())
     text += padded(table.path) + plain(table.does) + "\n";
   return text;

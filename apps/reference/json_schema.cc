@@ -133,7 +133,7 @@ void add_inside(Json &json, const Key &key)
 /// @param below  tables that are declared by themselves; may be null
 Json key_schema(const Key &key, const Place *below = nullptr)
 {
-  Json json = {{"description", key.meaning + ": " + taken_by(key) + (key.demanded ? "; demanded" : "")},
+  Json json = {{"description", key.meaning + ": " + taken_by(key) + (key.demanded ? "; required" : "")},
                {"type", types_of(key)}};
   add_range(json, key.range);
   if (key.form == Key::Form::choice && key.others.empty())

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -23,7 +24,7 @@ std::string rows(const std::vector<Key> &keys)
 {
   if (keys.empty())
     return "";
-  std::string text = "| key | | takes | default |\n|---|---|---|---|\n";
+  std::string text = "| Key | Description | Type / unit | Default |\n|---|---|---|---|\n";
   for (const Key &key : keys)
     text += "| `" + key.name + "` | " + key.meaning + " | " + taken_by(key) + " | " + default_of(key) + " |\n";
   return text + "\n";
@@ -38,7 +39,8 @@ std::string family_of(const DeclaredTable &table)
 bool is_shared(const Key &key, const KeyGroup &group)
 {
   const Key *shared = find_key(group.keys, key.name);
-  return group.of.empty() && shared && shared->meaning == key.meaning;
+  return group.of.empty() && shared && shared->meaning == key.meaning && default_of(*shared) == default_of(key) &&
+         taken_by(*shared) == taken_by(key);
 }
 
 /// "#contact", as links of Markdown go to a title.
@@ -59,10 +61,15 @@ std::string section(const DeclaredTable &table)
       continue;
     const auto shared =
         std::stable_partition(own.begin(), own.end(), [&](const Key &key) { return !is_shared(key, group); });
-    if (shared == own.end())
-      continue;
+    if (2 * static_cast<std::size_t>(own.end() - shared) <= group.keys.size()) // a reader would have to look up more
+      continue;                                                                // keys than stay in the table
+    std::vector<Key> others;
+    std::copy_if(group.keys.begin(), group.keys.end(), std::back_inserter(others),
+                 [&](const Key &key)
+                 { return std::none_of(shared, own.end(), [&](const Key &other) { return other.name == key.name; }); });
+    text += " Keys of [" + group.title + "](" + anchor(group.title) + ")" +
+            (others.empty() ? "." : " except " + quoted_names(others) + ".");
     own.erase(shared, own.end());
-    text += " Keys of [" + group.title + "](" + anchor(group.title) + ").";
   }
   own.erase(
       std::remove_if(own.begin(), own.end(), [&](const Key &key) { return !table.type.empty() && key.name == "type"; }),
@@ -70,8 +77,10 @@ std::string section(const DeclaredTable &table)
   text += "\n\n" + rows(own);
   if (!table.signals.empty())
     text += "Signals: " + table.signals + ".\n\n";
-  for (const std::string &example : table.examples)
-    text += "```toml\ntype = \"" + table.type + "\"\n" + example + "```\n\n";
+  if (!table.examples.empty())
+    text += "```toml\ntype = \"" + table.type + "\"\n" + table.examples.front() + "```\n\n";
+  if (table.examples.size() > 1)
+    text += "More examples: `gestell help '" + table.path + "'`.\n\n";
   return text;
 }
 
@@ -115,16 +124,17 @@ std::string generated(const std::string &marker)
   if (marker == "result files")
     return result_files_table();
   if (marker == "members: summary.json")
-    return "| member | | unit | content |\n|---|---|---|---|\n" + summary_members(result_of_all_kinds());
+    return "| Member | Type | Unit | Description |\n|---|---|---|---|\n" + summary_members(result_of_all_kinds());
   if (marker.rfind(keys, 0) != 0)
     throw std::invalid_argument("the marker '" + marker +
-                                "' is not known; there are 'keys: TABLE', 'members: summary.json' and 'result files'");
+                                "' is not known; there are 'keys: TABLE', 'members: summary.json', 'result files' and "
+                                "'options'");
   return key_tables(marker.substr(keys.size()));
 }
 
 } // namespace
 
-std::string renewed(const std::string &document)
+std::string renewed(const std::string &document, const std::string &options)
 {
   const std::string begin = "<!-- ", closed = " -->\n", end = "<!-- end -->";
   std::string       text;
@@ -134,20 +144,25 @@ std::string renewed(const std::string &document)
     const auto name = from + begin.size(), head = document.find(closed, name), tail = document.find(end, name);
     if (head == std::string::npos || tail == std::string::npos)
       throw std::invalid_argument("a marker '" + begin + "' has no end");
-    text += document.substr(done, head + closed.size() - done) + generated(document.substr(name, head - name)) + end;
+    const std::string marker = document.substr(name, head - name);
+    const auto        body   = head + closed.size();
+    text += document.substr(done, body - done);
+    text += marker != "options" ? generated(marker) : options.empty() ? document.substr(body, tail - body) : options;
+    text += end;
     done = tail + end.size();
   }
   return text + document.substr(done);
 }
 
-void renew_reference(const std::string &docs)
+void renew_reference(const std::string &docs, const std::string &options)
 {
-  const std::filesystem::path        folder = docs;
-  std::vector<std::filesystem::path> documents{folder / "scene.md", folder / "results.md", folder / "study.md"};
-  for (const auto &entry : std::filesystem::directory_iterator(folder / "scene"))
-    documents.push_back(entry.path());
-  for (const auto &document : documents)
-    write_file(document.string(), renewed(content(document)));
+  const std::filesystem::path folder = docs;
+  if (!std::filesystem::is_directory(folder / "reference"))
+    throw std::invalid_argument("--renew: " + docs + " has no folder reference; name the folder docs of the sources");
+  for (const auto &entry : std::filesystem::recursive_directory_iterator(folder / "reference"))
+    if (entry.path().extension() == ".md")
+      if (const std::string document = content(entry.path()), now = renewed(document, options); now != document)
+        write_file(entry.path().string(), now);
   write_file((folder / "scene.schema.json").string(), json_schema());
   write_file((folder / "summary.schema.json").string(), summary_schema(result_of_all_kinds()));
 }

@@ -15,9 +15,10 @@ std::string key_tables(const std::string &topic);
 
 /// The document with the text between its markers replaced by the generated one: from "<!-- keys: run -->", or "<!--
 /// result files -->", to "<!-- end -->".
-std::string renewed(const std::string &document);
+/// @param options  text for the marker "options"; empty: that section is left unchanged
+std::string renewed(const std::string &document, const std::string &options = "");
 
-/// Regenerates the schema and all documents in the folder docs: those in its folder scene, scene.md and results.md.
-void renew_reference(const std::string &docs);
+/// Regenerates the schemas and all documents in the folder `reference` of the folder docs.
+void renew_reference(const std::string &docs, const std::string &options);
 
 } // namespace gestell::apps

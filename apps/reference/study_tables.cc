@@ -8,21 +8,21 @@ namespace gestell::apps
 const std::vector<DeclaredTable> &study_tables()
 {
   static const std::vector<DeclaredTable> tables = {
-      {"study", "", "", "What stands above all tables of a study, and these.", "", study_keys(), {}},
-      {"study.scene", "[scene]", "", "The scene that a study varies.", "", study_scene_keys(), {}},
-      {"study.variables", "[variables.NAME]", "", "What a study varies.", "", study_variable_keys(), {}},
-      {"study.design", "[design]", "", "Which runs a study makes.", "", study_design_keys(), {}},
+      {"study", "", "", "Top-level keys of a study.", "", study_keys(), {}},
+      {"study.scene", "[scene]", "", "Scene that the study varies.", "", study_scene_keys(), {}},
+      {"study.variables", "[variables.NAME]", "", "Variable of the study.", "", study_variable_keys(), {}},
+      {"study.design", "[design]", "", "Design: the runs of the study.", "", study_design_keys(), {}},
       {"study.surface", "[surface]", "", "Response surfaces of the outputs.", "", study_surface_keys(), {}},
-      {"study.optimise", "[optimise]", "", "What a study looks for.", "", study_optimise_keys(), {}},
-      {"study.choose", "[choose]", "", "Which of the runs of a study is the best.", "", study_choose_keys(), {}},
+      {"study.optimise", "[optimise]", "", "Optimisation.", "", study_optimise_keys(), {}},
+      {"study.choose", "[choose]", "", "Selection of the best run.", "", study_choose_keys(), {}},
       {"study.goals",
        "[optimise.goals.OUTPUT]",
        "",
-       "An output that shall be small or large.",
+       "Goal: output to be minimised or maximised.",
        "",
        study_goal_keys(),
        {}},
-      {"study.limits", "[optimise.limits.OUTPUT]", "", "What an output must keep to.", "", study_limit_keys(), {}}};
+      {"study.limits", "[optimise.limits.OUTPUT]", "", "Limit of an output.", "", study_limit_keys(), {}}};
   return tables;
 }
 

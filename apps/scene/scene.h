@@ -10,7 +10,7 @@ namespace gestell::apps
 {
 
 /**
- * Reads and validates a scene without computing anything (docs/scene is the reference of its keys).
+ * Reads and validates a scene without computing anything (docs/reference/scene is the reference of its keys).
  *
  * @param overrides  of the command line, "key.path=value".
  * @param scripts    policy for gmsh scripts of the scene; a scene cannot change it.

@@ -24,27 +24,28 @@ Key coordinates(const std::string &name, const Kind &length, const Kind &angle, 
 const std::vector<Key> &scene_keys()
 {
   static const std::vector<Key> keys = {
-      key::plain("name", Key::Form::text, "names the folder of the results").by_default("name of the file"),
-      key::plain("description", Key::Form::text, "one line for the report").by_default("none"),
-      key::vector("gravity", kind::acceleration, "acts on the frame and on all masses").by_default("[0, 0, 0]"),
-      key::plain("extends", Key::Form::file, "scene whose entries hold where this one has none").by_default("none"),
-      key::plain("without", Key::Form::texts, "entries of it that are not taken over, `[\"joint.cylinder\"]`")
+      key::plain("name", Key::Form::text, "name of the folder of results").by_default("name of the file"),
+      key::plain("description", Key::Form::text, "description, one line for the report").by_default("none"),
+      key::vector("gravity", kind::acceleration, "gravity, acting on the frame and all masses").by_default("[0, 0, 0]"),
+      key::plain("extends", Key::Form::file, "base scene, whose keys apply unless this scene sets them")
           .by_default("none"),
-      key::plain("parameters", Key::Form::map, "[parameters](scene/values.md#values) of expressions")
+      key::plain("without", Key::Form::texts, "keys of the base scene that are left out, `[\"joint.cylinder\"]`")
+          .by_default("none"),
+      key::plain("parameters", Key::Form::map, "[parameters](scene/values.md#values) for expressions")
           .by_default("none"),
       one_of("material", "`[material.NAME]`"),
       one_of("frame", "the frame"),
-      one_of("reduction", "its reduction"),
+      one_of("reduction", "reduction of the frame"),
       one_of("body", "`[body.NAME]`"),
       one_of("place", "`[place.NAME]`"),
       one_of("measure", "`[measure.NAME]`"),
       one_of("element", "`[element.NAME]`"),
       one_of("joint", "`[joint.NAME]`"),
       one_of("switch", "`[switch.NAME]`"),
-      one_of("run", "the run in time"),
-      one_of("start", "the state it starts from"),
-      one_of("modes", "the machine's modes"),
-      one_of("output", "signals, stresses and rows that are written")};
+      one_of("run", "time integration"),
+      one_of("start", "initial state"),
+      one_of("modes", "modes of the machine"),
+      one_of("output", "output: signals, stresses, intervals")};
   return keys;
 }
 
@@ -66,89 +67,84 @@ const std::vector<Key> &reduction_keys()
   static const std::vector<Key> keys = {
       key::choice(
           "method", reduction_names(), true,
-          "static shapes of the interface with modes of the inside: `\"craig-bampton\"` with the interface "
-          "held, `\"free-interface\"` those of the frame as it is supported, which the reduced frame then has "
-          "exactly. `\"guyan\"`: these static shapes alone, exact in statics; modes that the "
-          "frame has with its interface held are missing, and "
-          "[noted](../theory/reduction.md#static-condensation) where they lie below `frequency`. "
-          "`\"modal\"` superposes [modes of frame and mechanism](../theory/reduction.md#modal-superposition), which "
-          "must all "
-          "vibrate. `\"condensation\"` keeps every coordinate of the full frame and condenses each step to those that "
-          "forces of the mechanism act on ([integration](../theory/integration.md#condensation-to-the-measures)"
-          "): exact, and slower by orders of magnitude; `\"none\"` is another name of it. So does a frame given by "
-          "matrices without `[reduction]`. Their other keys are those of the reduced frame that stands in for the full "
-          "one "
-          "in modes, statics of the start and pictures. A key that the method does not take is an error"),
-      key::number(
-          "tolerance", kind::number,
-          "relative error of the receptance of the interface up to `frequency`, or without one of the twelve lowest "
-          "frequencies; chooses the number of modes. By receptance, modes may be fewer together with the static shapes "
-          "of their inertia (up to as many as interface coordinates), and where dampers act inside the frame with "
-          "theirs; [tried](../theory/reduction.md#how-many-modes-for-the-interface) from 0.05 down to 1e-5, with "
-          "dampers up to 200 times as stiff as the supports they stand beside. The error is one number for all "
-          "interfaces, Frobenius' norm with each coordinate scaled by its inertia: an interface far stiffer than the "
-          "others may be worse by itself, and the worst is listed beside it. A note says what cannot be reached. Of "
-          "`\"modal\"`: the share of static deflections that may be left out")
+          "`\"craig-bampton\"`: static shapes of the interface and fixed-interface modes. `\"free-interface\"`: static "
+          "shapes and modes of the frame as supported, which the reduced frame has exactly. `\"guyan\"`: static shapes "
+          "only, exact in statics; a [note](../../theory/reduction.md#static-condensation) lists fixed-interface modes "
+          "below `frequency`. `\"modal\"`: superposition of [modes of frame and "
+          "mechanism](../../theory/reduction.md#modal-superposition), which must all vibrate. `\"condensation\"` (or "
+          "`\"none\"`): the full frame, each step "
+          "[condensed](../../theory/integration.md#condensation-to-the-measures) to the DOFs on which the mechanism "
+          "acts: exact, but slower by orders of magnitude; this is also the default for matrices without "
+          "`[reduction]`. Its other keys define the reduced frame used for modes, static initial state and pictures. A "
+          "key that does not apply to the method is an error"),
+      key::number("tolerance", kind::number,
+                  "tolerated relative error of the interface receptance up to `frequency`, or without `frequency` of "
+                  "the twelve lowest frequencies; determines the number of modes. Static shapes under inertia (at most "
+                  "one per interface DOF) or under damper forces may replace modes; "
+                  "[tested](../../theory/reduction.md#how-many-modes-for-the-interface) from 0.05 to 1e-5, with "
+                  "dampers up to 200 times as stiff as the supports next to them. The error is one number for all "
+                  "interfaces (Frobenius norm, each DOF scaled by its inertia): a much stiffer interface may have a "
+                  "larger error; the worst one is listed separately. A note is printed if the tolerance cannot be "
+                  "reached. For `\"modal\"`: tolerated share of the static deflections")
           .as_share()
           .by_default(ReductionRequest().options.tolerance),
-      key::plain(
-          "modes", Key::Form::whole,
-          "fixed number of modes instead; a `tolerance` beside it says how far they hold where no `frequency` is "
-          "given. Of "
-          "`\"free-interface\"` without it: "
-          "all up to 1.5 times `frequency`, or the twelfth elastic one. A note gives the error up to "
-          "`frequency`, or that the modes kept end below it. Of `\"modal\"` without it: all up to four times the "
-          "highest "
-          "frequency of the loads, and as many as `tolerance` asks for")
+      key::plain("modes", Key::Form::whole,
+                 "fixed number of modes, instead of `tolerance`; with both and no `frequency`, `tolerance` determines "
+                 "the valid frequency range. Default for `\"free-interface\"`: all up to 1.5 times `frequency`, or up "
+                 "to the twelfth elastic mode; for `\"modal\"`: all up to four times the highest load frequency, and "
+                 "as many as `tolerance` requires. A note gives the error up to `frequency`, or states that the "
+                 "retained modes end below it")
           .by_default("by `tolerance`"),
       key::number("frequency", kind::frequency,
-                  "highest frequency of interest; of `\"guyan\"` without it: as far as frequencies stay within "
-                  "`tolerance`. Of `\"modal\"` that of the highest mode kept")
+                  "highest frequency of interest; for `\"modal\"` that of the highest retained mode. Default for "
+                  "`\"guyan\"`: the range in which frequencies are within `tolerance`")
           .above_zero()
           .by_default("automatic"),
       key::choice("inside", {"fixed-interface", "free-interface"}, true,
-                  "beside `\"craig-bampton\"`: `\"free-interface\"` is the method of that name"),
+                  "only with `\"craig-bampton\"`; `\"free-interface\"` selects the method of that name"),
       key::choice("damping", {"full", "diagonal"}, true,
-                  "of `\"modal\"`: `\"diagonal\"` leaves out what couples modes"),
+                  "for `\"modal\"`; `\"diagonal\"` neglects the damping that couples modes"),
       key::choice("factor", {"gestell", "cholmod", "mumps"}, true,
-                  "factor of the stiffness, for all solutions and modes; the results agree up to rounding. "
-                  "`\"gestell\"`, `\"cholmod\"`: in one process, `\"mumps\"`: on any number of ranks of `mpirun`")
+                  "solver that factorises the stiffness, for all solutions and modes; results agree up to rounding. "
+                  "`\"gestell\"`, `\"cholmod\"`: one process; `\"mumps\"`: any number of ranks of `mpirun`")
           .by_default("`\"gestell\"`, on several ranks `\"mumps\"`"),
-      key::choice("eigensolver", {"block-lanczos", "krylov-schur", "lobpcg"}, true,
-                  "`\"krylov-schur\"`, `\"lobpcg\"`: of SLEPc, for the same modes in more time; the second may break "
-                  "down by rounding, and says so. Options of PETSc and "
-                  "SLEPc count with the prefix `reduction_`, such as `PETSC_OPTIONS=\"-reduction_eps_view\"`; a frame "
-                  "found in the cache was made without them"),
-      key::truth("inertia_relief", false,
-                 "with the static deflections under the inertia of rigid motions, up to six shapes more. Statics of a "
-                 "frame that floats and accelerates as a whole, and of any frame under weight, are exact then, "
-                 "whatever the number of modes")};
+      key::choice(
+          "eigensolver", {"block-lanczos", "krylov-schur", "lobpcg"}, true,
+          "eigensolver; `\"krylov-schur\"` and `\"lobpcg\"` of SLEPc need more time for the same modes, and "
+          "`\"lobpcg\"` may break down by rounding, with a message. Options of PETSc and SLEPc have the prefix "
+          "`reduction_`, such as `PETSC_OPTIONS=\"-reduction_eps_view\"`; frames in the cache were made without them"),
+      key::truth(
+          "inertia_relief", false,
+          "add static deflections under the inertia of rigid-body motions, at most six shapes. Static deflections of "
+          "an unsupported accelerated frame, and of any frame under weight, are then exact for any number of modes")};
   return keys;
 }
 
 const std::vector<Key> &start_keys()
 {
-  const std::string             rotors = "steady, without joints: of rotors, ";
+  const std::string             rotors = " of rotors, for `\"steady\"` without joints: ";
   static const std::vector<Key> keys   = {
         key::choice("rule", {"given", "static", "steady", "periodic"}, true,
-                    "a state as given, static equilibrium, steady motion, or on the periodic motion that `gestell "
-                      "periodic` finds from the state that the other keys tell, as given or steady"),
+                    "initial state: as given, static equilibrium, steady motion, or on the periodic solution that "
+                      "`gestell periodic` finds from the given or steady state"),
         coordinates(
             "q", kind::length, kind::angle,
-            "given and steady, of a static start first guesses: values of coordinates and measures, `{ crank = \"120 "
-              "deg\", \"boom.angle\" = \"5 deg\", \"frame.crown.uz\" = \"-0.6 mm\" }`")
+            "values of coordinates and measures for `\"given\"` and `\"steady\"`, first guesses for `\"static\"`: `{ "
+              "crank = \"120 deg\", \"boom.angle\" = \"5 deg\", \"frame.crown.uz\" = \"-0.6 mm\" }`")
             .by_default("0"),
-        coordinates("v", kind::speed, kind::angular_speed, "given and steady: their rates; of a static start warned of")
+        coordinates("v", kind::speed, kind::angular_speed,
+                    "rates of coordinates and measures for `\"given\"` and `\"steady\"`; a warning for `\"static\"`")
             .by_default("0"),
-        key::truth("drift", false, "static: with the velocity of the quasi-static drift").into(&StartRequest::drift),
+        key::truth("drift", false, "for `\"static\"`: start with the velocity of the quasi-static drift")
+            .into(&StartRequest::drift),
         key::truth("inertia_relief", false,
-                   "static: loads along motions that nothing holds are taken by the inertia of the machine; without it "
-                     "they are refused")
+                   "for `\"static\"`: loads on unconstrained DOFs are balanced by the inertia of the machine; otherwise "
+                     "they are an error")
             .into(&StartRequest::inertia_relief),
-        key::map("angles", kind::angle, {}, rotors + "`{ crank = \"120 deg\" }`")
+        key::map("angles", kind::angle, {}, "angles" + rotors + "`{ crank = \"120 deg\" }`")
             .by_default("by the balance of the `driver`"),
-        key::map("speeds", kind::angular_speed, {}, rotors + "`{ crank = \"30 rpm\" }`").by_default("0"),
-        key::named("driver", "steady, without joints: the rotor that makes up for what the drive lacks")
+        key::map("speeds", kind::angular_speed, {}, "speeds" + rotors + "`{ crank = \"30 rpm\" }`").by_default("0"),
+        key::named("driver", "for `\"steady\"` without joints: rotor whose angle follows from the torque balance")
             .by_default("a given angle")};
   return keys;
 }
@@ -157,17 +153,16 @@ const std::vector<Key> &modes_keys()
 {
   static const std::vector<Key> keys = {
       coordinates("at", kind::length, kind::angle,
-                  "configuration, `{ crank = \"160 deg\" }`. It is not looked for: the place of a static start, or any "
-                  "other equilibrium, is to be given here")
-          .by_default("0; with joints the start"),
+                  "configuration, `{ crank = \"160 deg\" }`. No equilibrium search is made: for that of a static "
+                  "initial state, or any other equilibrium, give it here")
+          .by_default("0; with joints the initial state"),
       key::plain("open", Key::Form::texts,
-                 "names of elements taken as open: play not closed, rope slack; what acts all the same, such as the "
-                 "oil film of a rod, stays. An element that acts in every position is refused")
+                 "names of elements that are open: play not closed, rope slack; parts that always act, such as the oil "
+                 "film of a rod, remain. An element that acts in every position is an error")
           .by_default("none"),
-      key::plain(
-          "number", Key::Form::whole,
-          "how many; 0: none, so that a run tells its motion alone. Runs of more than 600 coordinates leave them "
-          "out by themselves, and say so")
+      key::plain("number", Key::Form::whole,
+                 "number of modes; 0: a run computes none. Runs of machines with more than 600 coordinates omit them, "
+                 "with a note")
           .by_default(&ModesRequest::number)};
   return keys;
 }

@@ -32,9 +32,8 @@ std::string opening_text(const coupling::FrameJoint &joint, const coupling::Sign
   const DisplayUnit unit = display_unit("N", std::abs(force.min));
   return joint.place + ": this joint opens: its normal force falls to " + rounded(unit.factor * force.min) + " " +
          unit.unit + " at " + rounded(force.t_min) +
-         " s, a pull that a contact does not carry; from its first opening on the linear frame, and this run, no "
-         "longer "
-         "hold. Raise the prestress of the tie rods, or lower the load";
+         " s, a pull that a contact does not carry; from its first opening on the linear frame, and this run, are no "
+         "longer valid. Raise the prestress of the tie rods, or lower the load";
 }
 
 } // namespace

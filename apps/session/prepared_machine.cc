@@ -363,7 +363,7 @@ void add_modes_beside(const Scene &scene, coupling::Machine &machine, const coup
   result.coupled_modes.clear();
   result.energy_shares.reset();
   result.poles.clear();
-  result.warnings.push_back("no modes are told: " + why);
+  result.warnings.push_back("no modes are listed: " + why);
 }
 
 /// Why there are no modes; empty: there are.

@@ -237,7 +237,7 @@ std::string turn(const Scene &scene, coupling::Machine &machine, const coupling:
     problem.period      = found.period;
     problem.phase       = found.phase;
     problem.phase_value = start.q[found.phase];
-    repeating.reason    = "the machine comes round with " + machine.coordinate_name(found.phase) +
+    repeating.reason    = "the machine completes its period with " + machine.coordinate_name(found.phase) +
                        (is_driven(scene, machine)
                             ? "; the speed is that at which motor and resistance balance"
                             : "; nothing drives it, so that its speed is free: give it by --period, or add a motor");
@@ -319,7 +319,7 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
     return {&coupling::settling_method(), why};
   constexpr int few_coordinates = 3; // up to which all solutions are searched by default
   if (problem.turn.size() <= few_coordinates && !problem.period_is_unknown())
-    return {&coupling::minimising_method(), "few coordinates: all solutions are looked for"};
+    return {&coupling::minimising_method(), "few coordinates: all solutions are searched for"};
   return {&coupling::shooting_method(), "it takes few periods, and tells the stability"};
 }
 

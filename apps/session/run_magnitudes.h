@@ -15,7 +15,7 @@ namespace gestell::apps
 /**
  * Compares the results of a run with plausible ranges: elastic deformation of elements, travel of springs, contacts
  * that never closed, slip of motors, rim speeds, speeds and displacements of bodies. Ranges with their reasons:
- * docs/scene/magnitudes.md.
+ * docs/reference/scene/magnitudes.md.
  */
 class RunMagnitudes
 {

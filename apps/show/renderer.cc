@@ -89,7 +89,7 @@ Parts read_parts(const PictureFrame &frame)
   {
     vtkNew<vtkXMLPolyDataReader> reader;
     if (!reader->CanReadFile(file.c_str()))
-      throw std::invalid_argument(file.string() + ": is no surface of VTK; run the scene again");
+      throw std::invalid_argument(file.string() + ": is not a surface of VTK; run the scene again");
     reader->SetFileName(file.c_str());
     reader->Update();
     vtkSmartPointer<vtkPolyData> part = reader->GetOutput();

@@ -128,7 +128,7 @@ std::vector<PictureFrame> read_collection(const fs::path &pvd)
 {
   const std::string text = content_of(pvd);
   if (text.find("<VTKFile") == std::string::npos || text.find("</VTKFile>") == std::string::npos)
-    refuse(pvd, "is no whole collection of VTK; run the scene again");
+    refuse(pvd, "is not a complete collection of VTK; run the scene again");
   std::map<double, std::map<double, fs::path>> frames; // by time, then part
   for (const std::string &set : data_sets(text))
   {
@@ -165,7 +165,7 @@ std::optional<double> peak_time(const fs::path &results)
 std::vector<PictureSeries> pictures_of(const fs::path &results, std::size_t most_modes)
 {
   if (!fem::names_something(results) || !fs::is_directory(results))
-    refuse(results, "is no folder of results; name the folder that `gestell run` or `gestell modes` wrote");
+    refuse(results, "is not a folder of results; name the folder that `gestell run` or `gestell modes` wrote");
   const auto motion = collection_or_nothing(results / "motion.pvd");
 
   const auto coupled = collection_or_nothing(results / "coupled_modes.pvd");

@@ -169,16 +169,15 @@ Command show_command()
   const auto own = std::make_shared<ShowOptions>();
   return {
       "show",
-      "draw a result: the machine at its start and its peak, its motion, stresses and modes, as PNG pictures and films "
-      "(APNG, OGV)",
+      "draw results as PNG pictures and films (APNG, OGV): the machine at start and peak, motion, stresses and modes",
       {"gestell show results/press", "gestell show results/press --no-films --times 500"},
       CommandInput::none,
-      {{"DIR", &own->folder, "folder that `gestell run` or `gestell modes` wrote"},
+      {{"DIR", &own->folder, "folder of results of `gestell run` or `gestell modes`"},
        {"-o,--output", &own->pictures, "folder for the pictures (default DIR/pictures)"},
        CommandOption{"--times", &own->times, "enlargement of displacements (default: a round number)"}.above_zero(),
-       CommandOption{"--modes", &own->modes, "modes of each kind (default 6)"}.above_zero(),
-       CommandOption{"--width", &own->width, "of a picture in pixels (default 1000)"}.above_zero(),
-       {"--films,!--no-films", &own->films, "films of the motion and of the modes, beside pictures"},
+       CommandOption{"--modes", &own->modes, "number of modes of each kind (default 6)"}.above_zero(),
+       CommandOption{"--width", &own->width, "width of a picture in pixels (default 1000)"}.above_zero(),
+       {"--films,!--no-films", &own->films, "films of the motion and of the modes, in addition to pictures"},
        {"--quiet", &own->quiet, "no progress on standard error"}},
       [own](const CommonOptions &) { return show(*own); }};
 }

@@ -35,7 +35,8 @@ std::vector<OutputName> budget_outputs(const Scene &scene, const std::string &li
  * @param run  the answer of the scene itself.
  * @throws coupling::ConvergenceFailure if it is interrupted
  *
- * Source: docs/theory/mesh_error.md (4a, 4b); Roache, J. Fluids Eng. 116, 1994, 405-413 (two meshes); docs/size.md.
+ * Source: docs/theory/mesh_error.md (4a, 4b); Roache, J. Fluids Eng. 116, 1994, 405-413 (two meshes);
+ * docs/how_to/error_and_model_size.md.
  */
 ErrorBudget error_budget(const Scene &scene, const std::vector<OutputName> &outputs, const ModelAnswer &run,
                          const std::atomic<bool> *stop = nullptr);

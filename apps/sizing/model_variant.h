@@ -48,7 +48,7 @@ struct ModelAnswer
   std::vector<double>          values; ///< of the outputs asked for
   std::vector<double>          sizes;  ///< largest of the signal without its sign, of a mode its frequency
   std::vector<std::string>     units;
-  std::vector<double>          decided_s; ///< time until which each is decided; of a mode the begin of the run
+  std::vector<double>          decided_s; ///< time until which each is decided; for a mode the start of the run
   std::vector<coupling::Event> events;
   std::string                  method;              ///< of integration, for people
   int                          n_frame     = 0;     ///< coordinates of the unreduced frame; 0: none

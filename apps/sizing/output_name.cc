@@ -32,7 +32,7 @@ OutputName mode_named(const std::string &given, const std::string &number, int m
     refuse(given, "needs the number of a mode, such as modes.1");
   output.mode = std::stoi(number);
   if (output.mode < 1 || output.mode > modes)
-    refuse(given, "is not among the " + std::to_string(modes) + " modes that are told; raise modes.number");
+    refuse(given, "is not among the " + std::to_string(modes) + " listed modes; raise modes.number");
   return output;
 }
 
@@ -57,7 +57,7 @@ OutputName output_named(const std::string &given, const std::vector<std::string>
                       "final");
   const std::string nearest = nearest_name(before, signals);
   refuse(given,
-         "is no output of this scene" +
+         "is not an output of this scene" +
              (nearest.empty() ? "" : "; did you mean " + nearest + "." + (among(kinds, after) ? after : "max") + "?"));
 }
 

@@ -87,8 +87,9 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
   const int    largest  = modes.back();
   const double duration = scene.run.options.end - scene.run.options.begin;
   if (largest > most)
-    throw std::invalid_argument("--modes: " + std::to_string(largest) + " modes, but the inside of the frame has " +
-                                std::to_string(most) + " coordinates; name no more");
+    throw std::invalid_argument("--modes: " + std::to_string(largest) +
+                                " modes, but the internal DOFs of the frame have " + std::to_string(most) +
+                                " coordinates; name no more");
   ModelAnswer   reference, answer;
   constexpr int finer  = 4; // times the largest number of modes, of the reference: its error is far smaller
   comparison.reference = options.full ? point_of(scene, "condensation", -1, outputs, options.stop, reference)

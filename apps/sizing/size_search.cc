@@ -407,7 +407,7 @@ SizedModel Search::run()
   if (result_.met)
     result_.stopped.clear();
   else if (result_.stopped.empty())
-    result_.stopped = "nothing finer is at hand";
+    result_.stopped = "no finer model is available";
   SizedPlace &chosen = best_of_all ? *best_of_all
                                    : *std::min_element(judged_.begin(), judged_.end(),
                                                        [](const SizedPlace &a, const SizedPlace &b)

@@ -5,6 +5,7 @@
 #include "fem/values/number_text.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 
@@ -63,32 +64,63 @@ std::string data_of(const ReferenceCase &one)
   return text;
 }
 
+/// Source and tolerance of an expected value.
 std::string provenance(const Check &check)
 {
-  std::string text = "expected by " + expected_in(check) + " (" + check.source + ")";
+  std::string text = check.source;
   if (check.bound != Bound::none)
     text += std::string(", ") + (check.bound == Bound::least ? "a lower" : "an upper") + " bound";
   return text + "; allowed: " + check.because;
 }
 
-/// One note for all checks with the same expectation and tolerance.
+/// The formula or file of an expected value; "" for a plain number, which the table shows.
+std::string formula_of(const Check &check)
+{
+  const std::string text = expected_in(check);
+  char             *end  = nullptr;
+  std::strtod(text.c_str(), &end);
+  return end == text.c_str() + text.size() ? "" : text;
+}
+
+/// Compared values with one formula.
+struct ExpectedNames
+{
+  std::string formula, names;
+};
+
+void add_name(std::vector<ExpectedNames> &expected, const Check &check)
+{
+  const std::string formula = formula_of(check), name = compared(check);
+  const auto        same = std::find_if(expected.begin(), expected.end(),
+                                        [&](const ExpectedNames &other) { return other.formula == formula; });
+  if (same == expected.end())
+    expected.push_back({formula, name});
+  else if (same->names.find(name) == std::string::npos)
+    same->names += ", " + name;
+}
+
+/// One note for all checks with the same source and tolerance.
 std::vector<std::string> notes_of(const ReferenceCase &one)
 {
-  std::vector<std::pair<std::string, std::string>> notes; ///< provenance, what is compared
+  std::vector<std::pair<std::string, std::vector<ExpectedNames>>> notes; ///< by provenance
   for (const Check &check : one.checks)
   {
     const std::string from = provenance(check);
-    const auto same = std::find_if(notes.begin(), notes.end(), [&](const auto &note) { return note.first == from; });
+    auto same = std::find_if(notes.begin(), notes.end(), [&](const auto &note) { return note.first == from; });
     if (same == notes.end())
-      notes.emplace_back(from, compared(check));
-    else if (same->second.find(compared(check)) == std::string::npos)
-      same->second += ", " + compared(check);
+      same = notes.insert(notes.end(), {from, {}});
+    add_name(same->second, check);
   }
   std::vector<std::string> lines;
-  for (const auto &[from, what] : notes)
-    lines.push_back(what + ": " + from + ".");
+  for (const auto &[from, expected] : notes)
+  {
+    std::string line;
+    for (const ExpectedNames &each : expected)
+      line += (line.empty() ? "" : "; ") + each.names + (each.formula.empty() ? "" : " by " + each.formula);
+    lines.push_back(line + ": " + from + ".");
+  }
   for (const auto &[method, why] : one.methods_left_out)
-    lines.push_back("Left out of the table: " + method + ", " + why + ".");
+    lines.push_back("Not in the table: " + method + ", " + why + ".");
   return lines;
 }
 
@@ -150,7 +182,7 @@ std::string summary_table(const Verification &all)
 
 std::string left_out_page(const Verification &all)
 {
-  HtmlTable table({"file of reference values", "why no case reads it"});
+  HtmlTable table({"file of reference values", "reason why no case uses it"});
   for (const VerifiedFile &file : all.files)
     for (const auto &[name, why] : file.file.left_out)
       table.add({name, why});
@@ -168,7 +200,7 @@ std::string cell(std::string text)
 std::string case_in_document(const ReferenceCase &one, const CaseOutcome &outcome)
 {
   std::string text = "### " + one.name + "\n\n" + one.states + (one.equation.empty() ? "" : " " + one.equation + ".") +
-                     "\n\n`" + data_of(one) +
+                     " `" + data_of(one) +
                      "`\n\n| compared | expected | obtained | error | allowed | |\n|---|--:|--:|--:|--:|---|\n";
   std::string notes;
   for (std::size_t j = 0; j < one.checks.size(); ++j)
@@ -216,7 +248,7 @@ std::string verdict_text(const Verification &all)
          (failed == 0 ? std::string("all passed") : std::to_string(failed) + " failed") +
          (all.n_skipped == 0 ? ""
                              : "; " + count_text(static_cast<std::size_t>(all.n_skipped), "long case") +
-                                   " left out, which --all computes, too");
+                                   " omitted; --all includes them");
 }
 
 std::string outcome_line(const Check &check, const CheckOutcome &outcome)
@@ -247,10 +279,10 @@ std::string verification_page(const Verification &all)
 std::string verification_document(const Verification &all)
 {
   std::string text =
-      "# Verification\n\nReference cases shipped with the program, computed anew by `gestell verify --all`: " +
+      "# Verification\n\nReference cases shipped with the program, computed by `gestell verify --all`: " +
       verdict_text(all) +
-      ".\nExpected values come from closed forms or from independent computations, never from Gestell. Of a table the "
-      "pair of numbers\nstands here that uses most of what is allowed.\n"
+      ".\nExpected values come from closed forms or from independent computations, never from Gestell. For a "
+      "table,\nthe pair of numbers with the largest share of the tolerance is listed.\n"
       "This page is written by `gestell verify --all --renew docs`.\n\n";
   for (const VerifiedFile &file : all.files)
   {
@@ -264,7 +296,7 @@ std::string verification_document(const Verification &all)
       rows += "| `" + name + "` | " + cell(why) + " |\n";
   return rows.empty()
              ? text
-             : text + "## Not covered\n\n| file of reference values | why no case reads it |\n|---|---|\n" + rows;
+             : text + "## Not covered\n\n| file of reference values | reason why no case uses it |\n|---|---|\n" + rows;
 }
 
 CsvTable verification_csv(const Verification &all)

@@ -88,7 +88,7 @@ void require_symmetric(const MatrixXd &A, const char *name, Eigen::Index n)
 {
   require(A.rows() == n && A.cols() == n, std::string(name) + " is " + std::to_string(A.rows()) + " x " +
                                               std::to_string(A.cols()) + ", but M has " + std::to_string(n) + " rows");
-  require(A.allFinite(), std::string(name) + " holds a value that is no number");
+  require(A.allFinite(), std::string(name) + " contains a value that is not a number");
   require((A - A.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * A.cwiseAbs().maxCoeff(),
           std::string(name) + " is not symmetric");
 }
@@ -172,7 +172,7 @@ void DenseBase::stiffness_times(const VectorXd &x, VectorXd &y) const
 std::unique_ptr<LinearSolver> DenseBase::factorise(double w_M, double w_B, double w_C) const
 {
   require(std::isfinite(w_M) && std::isfinite(w_B) && std::isfinite(w_C),
-          "the weights of the time step are no finite numbers");
+          "the weights of the time step are not finite numbers");
   if (L_.n == 0 || (w_B != 0. && damping_.LL.size() > 0))
   {
     std::vector<int> all(M_.rows());

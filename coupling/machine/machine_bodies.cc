@@ -275,10 +275,9 @@ void MachineModel::refuse_far_turning(const std::string &name, const std::array<
     for (const Measure &u : rotation)
       for (const auto &[coordinate, weight] : u)
         if (coordinate == angle && body.name != name)
-          throw std::invalid_argument(
-              "\"" + name + "\" is carried by \"" + body.name +
-              "\", which turns by any angle, so that joints and measures cannot follow it; let it "
-              "be a planar body with a joint instead");
+          throw std::invalid_argument("\"" + name + "\" is carried by \"" + body.name +
+                                      "\", which rotates through large angles, so that joints and measures cannot "
+                                      "follow it; let it be a planar body with a joint instead");
   }
 }
 

@@ -84,7 +84,7 @@ void MachineParts::refuse_free_carrier(const Marker &carrier, const std::string 
 {
   if (carrier.turns_freely)
     throw std::invalid_argument(what + ": its carrier \"" + carrier.name +
-                                "\" turns freely in space, which its axis would not follow; make it a rigid body too, "
+                                "\" is a free spatial body, which its axis would not follow; make it a rigid body too, "
                                 "held by a revolute or prismatic joint");
 }
 

@@ -70,7 +70,7 @@ void MachineModel::add_switch(const Switch &request)
     const auto &element = *parts_->elements[found - names.begin()].element;
     const auto  known   = command_names(element);
     if (std::find(known.begin(), known.end(), order.name) == known.end())
-      throw std::invalid_argument("\"" + name + "\" knows no order \"" + order.name + "\"" +
+      throw std::invalid_argument("\"" + name + "\" does not accept the command \"" + order.name + "\"" +
                                   (known.empty() ? std::string("; it obeys none") : suggestion(order.name, known)));
     element.commands()->check_order(order);
   }

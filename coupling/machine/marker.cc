@@ -76,8 +76,8 @@ Measure Marker::about(const Vector3 &axis) const
   if (turns_freely)
     throw std::invalid_argument(
         "\"" + name +
-        "\" turns freely in space, so that it has no angle about a constant axis; let the element act "
-        "on a [measure] of type \"angle\", or on a rotor that a rigid joint holds to the body");
+        "\" is a free spatial body, so that it has no angle about a constant axis; let the element act on a [measure] "
+        "of type \"angle\", or on a rotor that a rigid joint holds to the body");
   return projection(rotation, axis);
 }
 

@@ -36,7 +36,7 @@ struct CouplingTolerance
  * and couplings within the tolerance are neglected, the smallest first. Modes joined by the rest are solved together: a
  * frame with a few dashpots needs the time of its few coupled modes only.
  *
- * Source: docs/stability.md, Damped modes.
+ * Source: docs/theory/stability.md, Damped modes.
  * @throws std::invalid_argument if an entry of B is not finite
  */
 std::vector<DampedMode> damped_modes(const DenseModes &modes, const Eigen::MatrixXd &B,

@@ -23,7 +23,7 @@ namespace gestell::coupling
  * m operations for a frequency and an entry.  Singular parts at s = 0 (motions without stiffness) are omitted there.
  * Virtual coordinates T x' + x = f are separate states.
  *
- * Source: docs/frf.md (3), docs/theory/periodic.md (6).
+ * Source: docs/theory/frequency_response.md (3), docs/theory/periodic.md (6).
  */
 class BaseReceptance
 {

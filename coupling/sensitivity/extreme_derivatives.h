@@ -20,7 +20,7 @@ namespace gestell::coupling
  * others with nonzero y'; instants of a flat peak, with y'' not accurate to 1e-4, with the turning point more than a
  * step away, with a change lost in rounding, or with a shift longer than the run for 1 % of a parameter.
  *
- * Source: docs/sensitivities.md (9) to (11).
+ * Source: docs/theory/sensitivities.md (9) to (11).
  */
 class ExtremeDerivatives
 {

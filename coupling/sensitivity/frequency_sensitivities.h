@@ -38,7 +38,7 @@ std::string without_derivative(const std::vector<Mode> &modes, std::size_t j);
  * v = 1, with its own multipliers mu_w.  Derivatives of matrices are central quotients, with the configuration for each
  * value; K, M and G are their means.  nan for those with without_derivative().
  *
- * Source: Fox, Kapoor, AIAA Journal 6(12), 1968, 2426-2429, with constraints; docs/sensitivities.md (12).
+ * Source: Fox, Kapoor, AIAA Journal 6(12), 1968, 2426-2429, with constraints; docs/theory/sensitivities.md (12).
  */
 Eigen::MatrixXd frequency_sensitivities(const std::vector<Mode> &modes, const std::vector<FrequencyTwins> &twins);
 

@@ -40,7 +40,7 @@ struct Linearised
  * changes by parameters at fixed motion, by central quotients of the two machines of each parameter with their present
  * histories.
  *
- * Source: docs/sensitivities.md (3), (4).
+ * Source: docs/theory/sensitivities.md (3), (4).
  */
 class MotionLinearisation
 {

@@ -49,7 +49,7 @@ struct SensitivityProblem
  * @throws std::invalid_argument if the machines of a parameter have another structure, for events that were not
  * located, velocity jumps, or unsupported elements; ConvergenceFailure
  *
- * Source: docs/sensitivities.md (7) to (11).
+ * Source: docs/theory/sensitivities.md (7) to (11).
  */
 RunSensitivities run_sensitivities(const SensitivityProblem &problem);
 

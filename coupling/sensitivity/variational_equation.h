@@ -32,7 +32,7 @@ struct MotionColumns
  * + c B + c^2 C, condensed to the measures if these are fewer than the coordinates; c = 0 gives the accelerations for s
  * and s'.
  *
- * Source: docs/sensitivities.md (2) to (5).
+ * Source: docs/theory/sensitivities.md (2) to (5).
  */
 class VariationalEquation
 {

@@ -64,8 +64,8 @@ struct VariationalAccuracy
  * The accuracy also includes the error that the method of the run, with its step, would make in these derivatives (y''
  * and y''' by differences of the stages): the motion of the run has the same error.
  *
- * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5; docs/sensitivities.md (6),
- * (6a).
+ * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5;
+ * docs/theory/sensitivities.md (6), (6a).
  */
 class VariationalSteps
 {

@@ -56,8 +56,8 @@ std::string EnergyGuard::words(const std::string &method) const
   text << std::setprecision(3) << "the energy balance is open by " << residual() << " J, ";
   if (exchanged() > 0.)
     text << 100. * residual() / exchanged() << " % of the " << exchanged() << " J that the motion exchanges, ";
-  text << (gain_ > loss_ ? "which came from nowhere: " : "which the method lost: ") << method;
-  text << (verdict == Verdict::open ? " is too coarse for this motion" : " does not give a motion of the machine");
+  text << (gain_ > loss_ ? "a spurious energy gain: " : "numerical dissipation: ") << method;
+  text << (verdict == Verdict::open ? " is too coarse for this motion" : "; the result is not physical");
   return text.str();
 }
 

@@ -27,7 +27,7 @@ void require_finite(const std::vector<Signal> &signals, const SignalSample &samp
     if (!std::isfinite(sample.values[i]))
     {
       std::ostringstream message;
-      message << "signal " << signals[i].name << " is no finite number at t = " << sample.t
+      message << "signal " << signals[i].name << " is not a finite number at t = " << sample.t
               << " s; a formula or law gives none there, or the motion grew beyond all numbers";
       throw ConvergenceFailure(message.str());
     }
@@ -40,7 +40,7 @@ std::string non_finite_state_message(double t, const Eigen::VectorXd &q, const E
   if (q.allFinite() && v.allFinite())
     return "";
   std::ostringstream message;
-  message << "a coordinate is no finite number at t = " << t
+  message << "a coordinate is not a finite number at t = " << t
           << " s; a formula or law gives none there, or the motion grew beyond all numbers";
   return message.str();
 }

@@ -63,9 +63,8 @@ void require_size(const Machine &machine, const RunOptions &options, std::size_t
   const auto [history, pictures, states] = kept_bytes(machine, options, n_signals);
   constexpr double most_bytes            = 1e9; // what a laptop has to spare
   if (!options.allow_large && states > most_bytes)
-    too_large("the run would keep ", states / 1e9,
-              " GB of states to look for the largest stress; give output.stress.step ", "a larger value than ",
-              options.states.step, " s, or say output.allow_large = true");
+    too_large("the run would keep ", states / 1e9, " GB of states to find the largest stress; give output.stress.step ",
+              "a larger value than ", options.states.step, " s, or say output.allow_large = true");
   if (options.allow_large || history + pictures <= most_bytes)
     return;
   too_large("the run would keep ", history / 1e9, " GB of history and ", pictures / 1e9,

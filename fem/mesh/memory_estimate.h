@@ -19,8 +19,8 @@ double compactness(double volume, double skin_area);
  * for the libraries; for mesh, matrices and vectors of 40 modes, proportional to the DOFs; and for the factor of C.
  * With nested dissection of a body its entries grow like n^(4/3) (George, SIAM J. Numer. Anal. 10, 1973, 345-363); for
  * plates the separators are smaller in proportion to the thickness 2 V / A.  The formula is fitted to the press frame,
- * 3 to 4 % above the measured value (docs/benchmarks.md); it is 3 % too low for the ladder chassis, and a tenth to a
- * third too high for cubes and beams.  Each of the n_a nodes averaged by an interface has three rows with the 192
+ * 3 to 4 % above the measured value (docs/develop/benchmarks.md); it is 3 % too low for the ladder chassis, and a tenth
+ * to a third too high for cubes and beams.  Each of the n_a nodes averaged by an interface has three rows with the 192
  * displacements of its group in M, in C and in the factor: 48 and 50 kB were measured on plates with a whole face
  * averaged.
  */

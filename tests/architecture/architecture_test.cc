@@ -1,4 +1,4 @@
-// The shape of the house (README, docs/architecture.md) as theorems about its source text.
+// The shape of the house (README, docs/develop/architecture.md) as theorems about its source text.
 
 #include "tests/architecture/source_tree.h"
 #include "tests/support/test.h"

@@ -1,5 +1,5 @@
 // Error of frequencies against coordinates and CPU time for several kinds of meshes, from the tables that
-// `gestell modes SCENE --converge` leaves; docs/benchmarks.md has the commands.
+// `gestell modes SCENE --converge` leaves; docs/develop/benchmarks.md has the commands.
 //
 //   gestell_mesh_chart FOLDER REFERENCE.csv NAME=TABLE.csv ...
 //

@@ -1,4 +1,4 @@
-// Machines at random that found something wrong, which has been cured: docs/random_machines.md.
+// Machines at random that found something wrong, which has been cured: docs/develop/random_machines.md.
 
 #include "tests/random_machines/findings_of.h"
 #include "tests/support/test.h"

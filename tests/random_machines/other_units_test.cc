@@ -1,4 +1,4 @@
-// Machines at random do the same in other units of length, mass and time: docs/random_machines.md.
+// Machines at random do the same in other units of length, mass and time: docs/develop/random_machines.md.
 
 #include "tests/random_machines/other_units.h"
 #include "tests/support/test.h"

@@ -1,4 +1,4 @@
-// Machines at random, computed by unrelated methods and judged by invariants: docs/random_machines.md.
+// Machines at random, computed by unrelated methods and judged by invariants: docs/develop/random_machines.md.
 
 #include "tests/random_machines/judge.h"
 #include "tests/random_machines/other_units.h"

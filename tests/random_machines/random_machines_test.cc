@@ -1,4 +1,4 @@
-// Machines at random whose motions must obey what holds of all motions: docs/random_machines.md.
+// Machines at random whose motions must obey what holds of all motions: docs/develop/random_machines.md.
 
 #include "tests/random_machines/findings_of.h"
 #include "tests/support/test.h"

@@ -1,4 +1,4 @@
-"""What docs/how_to shows still fits the tree: new files are new, and what is shown of others can be applied.
+"""The pages docs/develop/add_* still fit the tree: new files are new, and what is shown of others can be applied.
 
     how_to_test.py TREE                   checks
     how_to_test.py TREE --into COPY PAGE  follows a page in a copy of the tree"""
@@ -40,8 +40,8 @@ def follow(page, tree):
 
 def check(top):
     shown, wrong = 0, []
-    for name in sorted(os.listdir(os.path.join(top, "docs/how_to"))):
-        for path, text in steps(os.path.join(top, "docs/how_to", name)):
+    for name in sorted(name for name in os.listdir(os.path.join(top, "docs/develop")) if name.startswith("add_")):
+        for path, text in steps(os.path.join(top, "docs/develop", name)):
             shown += 1
             if path and os.path.exists(os.path.join(top, path)):
                 wrong.append(f"{name}: {path} is there already")

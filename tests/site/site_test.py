@@ -12,10 +12,10 @@ top = sys.argv.pop(1)
 
 BROKEN = {
     "see [it](no_such.md)": "no_such.md",
-    "see [it](press.md#no-such-title)": "press.html#no-such-title",
+    "see [it](help/faq.md#no-such-title)": "help/faq.html#no-such-title",
     "see [it](#no-such-title)": "#no-such-title",
     "see [it](../apps/scenes/no_such.toml)": "../apps/scenes/no_such.toml",
-    "see [them](scene/)": "scene/",
+    "see [them](reference/scene/)": "reference/scene/",
     '<script src="https://example.org/x.js"></script>': "https://example.org/x.js",
 }
 
@@ -63,7 +63,7 @@ class Site(unittest.TestCase):
             built = tree.build()
             self.assertEqual(built.returncode, 0, built.stderr)
             start = tree.page("index.html")
-            for title in ("First steps", "Your first frame", "Theory", "A page of no group"):
+            for title in ("Tutorials", "Your first frame", "Theory", "A page of no group"):
                 self.assertIn(title, start)
             more = start.split(">More<")[1].split("</ul>")[0]
             self.assertEqual(re.findall(r'href="([^"#]+)"', more), ["stray.html"], "documents that mkdocs.yml puts into no group")

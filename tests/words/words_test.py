@@ -14,7 +14,7 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 SENTENCE = 32  # words at most
 PROGRAM = ("apps", "coupling", "fem", "mechanism")
-GENERATED = ("docs/verification.md",)
+GENERATED = ("docs/trust/verification.md",)
 CODE = re.compile(r"^ *```.*?^ *```$|<!--.*?-->|(?<=\n\n)(?: {4}[^\n]*\n)+", re.S | re.M)
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\((.*?)\)\1"|"((?:\\.|[^"\\\n])*)"|\'(?:\\.|[^\'\\\n])\'', re.S)
 BETWEEN = re.compile(r'\s*(?:(?:\+|<<)[^;"{}]{0,200}(?:\+|<<))?\s*')

@@ -67,23 +67,24 @@ public:
   std::vector<CommandOption> options() override
   {
     return {
-        {"--along", &own_.along, "follow them along a coordinate: a body, a measure or a driven joint"},
+        {"--along", &own_.along, "follow the modes along a coordinate: a body, a measure or a driven joint"},
         CommandOption{"--from", &own_.from, "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)"}
             .with("--along"),
-        CommandOption{"--to", &own_.to, "last position (default one turn further)"}.with("--along"),
+        CommandOption{"--to", &own_.to, "last position (default one revolution further)"}.with("--along"),
         CommandOption{"--positions", &own_.positions,
-                      "how many, both ends included (default 73: every 5 deg of a turn)"}
+                      "number of positions, including both ends (default 73: every 5 deg of a revolution)"}
             .at_most(1e5)
             .with("--along"),
-        CommandOption{"--configuration", &own_.configuration,
-                      "equilibrium (default): standing still under weights and springs; or undeformed"}
+        CommandOption{
+            "--configuration", &own_.configuration,
+            "configuration that is linearised: equilibrium (default) under weights and springs, or undeformed"}
             .one_of({"equilibrium", "undeformed"})
             .with("--along"),
-        CommandOption{"--hold", &own_.hold, "coordinates that do not vibrate, such as a held drive"}.with("--along"),
-        CommandOption{"--speed", &own_.speed, "speed whose orders excite, such as \"30 1/min\" (default: at the start)"}
+        CommandOption{"--hold", &own_.hold, "coordinates that are fixed, such as a locked drive"}.with("--along"),
+        CommandOption{"--speed", &own_.speed, "speed of the orders, such as \"30 1/min\" (default: initial speed)"}
             .with("--along"),
         CommandOption{"--orders", &own_.orders, "highest order (default 10)"}.above_zero().at_most(1e4).with("--along"),
-        CommandOption{"--band", &own_.band, "how near an order must come to be listed (default \"5 %\")"}.with(
+        CommandOption{"--band", &own_.band, "relative distance within which an order is listed (default \"5 %\")"}.with(
             "--along")};
   }
   bool            requested(const Scene &) const override { return !own_.along.empty(); }
@@ -113,7 +114,7 @@ AnalysisEntry along_analysis()
       "along", "", {},
       {{"modes_along.csv", "frequencies and damping at each position, with `modes --along`",
         content_of<AlongResult, along_frequencies>},
-       {"modes_along_shapes.csv", "the shapes to them", along_shapes}},
+       {"modes_along_shapes.csv", "shapes of these modes", along_shapes}},
       "modes");
 }
 

@@ -143,10 +143,10 @@ public:
   std::vector<CommandOption> options() override
   {
     return {{"--budget", &requested_,
-             "tell the errors that mesh, reduction and integration leave in the outputs, by a second model for each"},
+             "estimate the errors of outputs due to mesh, reduction and time integration, by a second model for each"},
             CommandOption{"--outputs", &list_,
-                          "of the budget, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of "
-                          "every signal)"}
+                          "outputs of the budget, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest "
+                          "value of every signal)"}
                 .with("--budget")};
   }
   bool requested(const Scene &) const override { return requested_; }

@@ -43,7 +43,7 @@ void describe(Visitor &v, const ComparedMeasure &x)
 {
   v("name", x.measure.path, "", "path of the measure");
   v("unit", x.measure.unit, "", "of the measure");
-  v("apparent_mass", x.mass, "kg, kg m^2", "of both machines along it");
+  v("apparent_mass", x.mass, "kg, kg m^2", "apparent mass of both machines along the measure");
 }
 
 /// A pair of modes with similar shapes.
@@ -57,12 +57,12 @@ template <class Visitor>
 void describe(Visitor &v, const ComparedPair &x)
 {
   v("mode", x.a, "", "number of the mode");
-  v("frequency_hz", x.a_hz, "Hz", "its frequency");
+  v("frequency_hz", x.a_hz, "Hz", "frequency of the mode");
   v("other_mode", x.b, "", "number of the other scene's mode");
-  v("other_frequency_hz", x.b_hz, "Hz", "its frequency");
+  v("other_frequency_hz", x.b_hz, "Hz", "frequency of the mode");
   v("mac", x.assurance, "1", "modal assurance criterion");
-  v("seen", x.a_seen, "1", "share of the mode that the measures see");
-  v("other_seen", x.b_seen, "1", "share of the other mode that they see");
+  v("seen", x.a_seen, "1", "observability of the mode by the measures");
+  v("other_seen", x.b_seen, "1", "observability of the other mode by the measures");
 }
 
 template <class Visitor>
@@ -78,13 +78,13 @@ void describe(Visitor &v, const ComparedShapes &x)
                      x.match.seen_b[pair.b]});
   v("other", x.b.scene, "", "name of the other scene");
   v("measures", measures, "", "measures that both machines have");
-  v("pairs", pairs, "", "modes of like shape");
+  v("pairs", pairs, "", "modes of similar shape");
 }
 
 template <class Visitor>
 void describe_answer(Visitor &v, const ComparedShapes &x)
 {
-  v.maybe(true, "compared_modes", x, "", "modes beside those of another scene, `--compare`");
+  v.maybe(true, "compared_modes", x, "", "modes compared with those of another scene, `--compare`");
 }
 
 } // namespace gestell::apps

@@ -23,10 +23,10 @@ template <class Visitor>
 void describe(Visitor &v, const ComparedExtreme &x)
 {
   v("value", x.value, "", "in this run");
-  v("t", x.t, "s", "its instant");
+  v("t", x.t, "s", "its time");
   v("other", x.other, "", "in the other run");
-  v("other_t", x.other_t, "s", "its instant");
-  v("ratio", x.ratio(), "1", "other value over this one");
+  v("other_t", x.other_t, "s", "its time");
+  v("ratio", x.ratio(), "1", "ratio of the other value to this one");
 }
 
 /// A signal in both runs.
@@ -69,7 +69,7 @@ void describe(Visitor &v, const ComparedRun &x)
 template <class Visitor>
 void describe_answer(Visitor &v, const ComparedRun &x)
 {
-  v.maybe(true, "compared_run", x, "", "extremes beside those of another scene, `run --compare`");
+  v.maybe(true, "compared_run", x, "", "extremes compared with those of another scene, `run --compare`");
 }
 
 /// @param scene  name of the other scene

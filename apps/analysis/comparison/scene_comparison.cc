@@ -146,14 +146,13 @@ AnalysisEntry compare_run_analysis()
       "compare",
       "",
       {},
-      {{"compared_run.csv", "extremes beside those of another scene's run, with `run --compare`", compared_run_file},
-       {"compared_history.csv", "the other run over time", content_of<ComparedRun, compared_history_csv>}},
+      {{"compared_run.csv", "extremes compared with those of another scene, with `run --compare`", compared_run_file},
+       {"compared_history.csv", "signals of the other run over time", content_of<ComparedRun, compared_history_csv>}},
       []
       {
-        return std::make_unique<Compare>(
-            "another scene, which runs as it stands in its file: its signals in the same charts, extremes and modes "
-            "beside each other",
-            require_comparable_runs, add_compared_run);
+        return std::make_unique<Compare>("another scene, run without --set: its signals in the same charts, its "
+                                         "extremes and modes in the same tables",
+                                         require_comparable_runs, add_compared_run);
       },
       [] { return as_answer(ComparedRun()); },
       "run"};
@@ -164,13 +163,13 @@ AnalysisEntry compare_modes_analysis()
   return {"compare",
           "",
           {},
-          {{"compared_modes.csv", "modes beside those of another scene, with `--compare`",
+          {{"compared_modes.csv", "modes compared with those of another scene, with `--compare`",
             content_of<ComparedShapes, compared_modes_csv>},
-           {"mac.csv", "how alike their shapes are, each with each", content_of<ComparedShapes, mac_csv>}},
+           {"mac.csv", "MAC matrix of their shapes", content_of<ComparedShapes, mac_csv>}},
           []
           {
             return std::make_unique<Compare>(
-                "another scene, whose modes are matched with these by what both call by the same name",
+                "another scene, whose modes are matched with these by measures of the same name",
                 [](Session &, Session &) {}, add_compared_modes);
           },
           [] { return as_answer(ComparedShapes()); },

@@ -25,9 +25,9 @@ struct MeasuredResponse
 template <class Visitor>
 void describe(Visitor &v, const MeasuredResponse &x)
 {
-  v("file", x.file, "", "of the measurement");
-  v("name", x.name, "", "in the file");
-  v("pair", x.pair_name, "", "pair it is drawn beside");
+  v("file", x.file, "", "file of the measurement");
+  v("name", x.name, "", "name in the file");
+  v("pair", x.pair_name, "", "pair with which it is compared");
   v("points", x.values.size(), "", "number of frequencies");
 }
 
@@ -46,9 +46,9 @@ struct ResponsePair
 template <class Visitor>
 void describe(Visitor &v, const ResponsePair &x)
 {
-  v("name", x.name(), "", "answer over force");
-  v("from", x.from, "", "place of the force");
-  v("to", x.to, "", "place of the answer");
+  v("name", x.name(), "", "response over force");
+  v("from", x.from, "", "location of the force");
+  v("to", x.to, "", "location of the response");
   v("unit", x.unit, "", "of the amplitudes");
   v("peaks", x.peaks, "", "largest amplitudes");
 }
@@ -73,12 +73,12 @@ void describe(Visitor &v, const FrequencyResponse &x)
 {
   v("kind", x.kind, "", "receptance, mobility or accelerance");
   v("at", x.at, "", "operating point");
-  v("t", x.t, "s", "its instant");
-  v("moves", x.moves, "", "it is a motion, not rest");
-  v("closed_contacts", x.closed_contacts, "", "elements with play that are engaged there");
-  v("open_contacts", x.open_contacts, "", "those that are not");
+  v("t", x.t, "s", "its time");
+  v("moves", x.moves, "", "whether the operating point is a motion");
+  v("closed_contacts", x.closed_contacts, "", "elements with clearance that are closed there");
+  v("open_contacts", x.open_contacts, "", "elements with clearance that are open there");
   v("points", x.frequencies_hz.size(), "", "number of frequencies");
-  v("pairs", x.pairs, "", "pairs of places");
+  v("pairs", x.pairs, "", "pairs of response and force");
   v("measured", x.measured, "", "measured curves");
 }
 

@@ -117,23 +117,25 @@ public:
   std::vector<CommandOption> options() override
   {
     return {
-        {"--from", &own_.from, "where unit forces act: displacements or angles, such as frame.crown.uz, slide, tip.ux"},
-        {"--to", &own_.to, "what answers: signals of the scene or paths, such as frame.table.uz, rod.force"},
-        CommandOption{"--kind", &own_.kind, "of displacements: receptance (default), mobility or accelerance"}.one_of(
-            {"receptance", "mobility", "accelerance"}),
-        CommandOption{"--at", &own_.at,
-                      "operating point: start (default) of the scene, equilibrium or undeformed at [modes]"}
+        {"--from", &own_.from, "unit forces, by their displacements or angles, such as frame.crown.uz, slide, tip.ux"},
+        {"--to", &own_.to, "responses: signals of the scene or paths, such as frame.table.uz, rod.force"},
+        CommandOption{"--kind", &own_.kind,
+                      "kind of response for displacements: receptance (default), mobility or accelerance"}
+            .one_of({"receptance", "mobility", "accelerance"}),
+        CommandOption{
+            "--at", &own_.at,
+            "operating point: start of the run (default), or equilibrium or undeformed configuration of [modes]"}
             .one_of({"start", "equilibrium", "undeformed"}),
-        {"--lowest", &own_.lowest, "frequency, such as \"1 Hz\" (default: a quarter of the lowest mode)"},
-        {"--highest", &own_.highest, "frequency (default: 1.5 times the highest mode that is listed)"},
-        CommandOption{"--points", &own_.points, "frequencies, beside those that peaks ask for (default 400)"}
+        {"--lowest", &own_.lowest, "lowest frequency, such as \"1 Hz\" (default: a quarter of the lowest mode)"},
+        {"--highest", &own_.highest, "highest frequency (default: 1.5 times the highest listed mode)"},
+        CommandOption{"--points", &own_.points, "number of frequencies, in addition to those at peaks (default 400)"}
             .above_zero()
             .at_most(1e6),
-        CommandOption{"--spacing", &own_.spacing, "of the frequencies: log (default) or linear"}.one_of(
+        CommandOption{"--spacing", &own_.spacing, "spacing of the frequencies: log (default) or linear"}.one_of(
             {"log", "linear"}),
         {"--measured", &own_.measured, "measured curves: FILE.csv, FILE.uff, or PAIR=FILE"},
         CommandOption{"--export", &format_,
-                      "the linear machine itself, x' = A x + B u, y = C x + D u, for other programs"}
+                      "format for the linear machine x' = A x + B u, y = C x + D u: mat or matrix-market"}
             .one_of(exchange_formats())
             .of_files()};
   }
@@ -182,9 +184,9 @@ AnalysisEntry frf_analysis()
       {"gestell frf apps/scenes/press_minimal.toml --from frame.crown.uz --to frame.crown.uz,F_P"},
       {{"frf.csv", "frequency responses of the linearised machine, by `frf`",
         content_of<FrequencyResponse, frequency_response_csv>},
-       exported("state_space.mat", "that machine as x' = A x + B u, y = C x + D u, with `frf --export mat`"),
+       exported("state_space.mat", "linearised machine as x' = A x + B u, y = C x + D u, with `frf --export mat`"),
        exported("state_space_*.mtx", "the same, with `frf --export matrix-market`"),
-       exported("state_space.csv", "names of its states, inputs and outputs")});
+       exported("state_space.csv", "names of states, inputs and outputs")});
 }
 
 } // namespace gestell::apps

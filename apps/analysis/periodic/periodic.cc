@@ -215,31 +215,32 @@ public:
   {
     std::vector<CommandOption> options{
         {"--method", &own_.method, names_of_methods() + " (default: chosen by the scene; the reason is printed)"},
-        {"--period", &own_.period, "of the excitation, such as \"0.2 s\" (default: from loads and what turns)"},
-        CommandOption{"--ratio", &own_.ratio, "periods of the excitation after which the motion repeats (default 1)"}
+        {"--period", &own_.period,
+         "period of the excitation, such as \"0.2 s\" (default: from loads and rotating bodies)"},
+        CommandOption{"--ratio", &own_.ratio, "number of excitation periods per period of the solution (default 1)"}
             .above_zero()
             .at_most(1000),
-        {"--along", &own_.along, "continue the motions along a key of the scene, such as parameters.speed"},
-        CommandOption{"--from", &own_.from, "its first value, such as \"800 1/min\""}.with("--along"),
-        CommandOption{"--to", &own_.to, "its last value"}.with("--along"),
-        CommandOption{"--points", &own_.points, "about so many from end to end (default 100)"}
+        {"--along", &own_.along, "continue the solutions in a scene key, such as parameters.speed"},
+        CommandOption{"--from", &own_.from, "first value of this key, such as \"800 1/min\""}.with("--along"),
+        CommandOption{"--to", &own_.to, "last value of this key"}.with("--along"),
+        CommandOption{"--points", &own_.points, "approximate number of points of the branch (default 100)"}
             .above_zero()
             .at_most(1e6)
             .with("--along"),
         CommandOption{"--closing", &own_.tolerance,
-                      "how well a motion must close, relative to its speed (default 1e-10)"}
+                      "tolerance of the periodicity residual, relative to the speed (default 1e-10)"}
             .above_zero(),
-        {"--check", &own_.check, "compute each motion by a second method too, and report how far the two differ"},
+        {"--check", &own_.check, "also compute each solution by a second method, and print the difference"},
         {"--basins", &own_.basins,
-         "to which motion starts settle that differ in two coordinates or rates, such as \"slide, slide'\" or \"slide "
-         "from -1 to 1, slide' from -2 to 2\" (default ends: twice the largest excursions of the motions found)"},
-        CommandOption{"--basin-points", &own_.basin_points, "starts along a side (default 60)"}
+         "basins of attraction over two coordinates or rates, such as \"slide, slide'\" or \"slide from -1 to 1, "
+         "slide' from -2 to 2\" (default range: twice the largest excursions of the solutions)"},
+        CommandOption{"--basin-points", &own_.basin_points, "initial states along each axis (default 60)"}
             .above_zero()
             .at_most(2000)
             .with("--basins"),
         CommandOption{"--section", &own_.section,
-                      "integrate for so many periods, 64 or more, and report the long-term behaviour (default: 256 "
-                      "where no motion is found, of minimise no stable one)"}
+                      "number of periods, 64 or more, for the long-term behaviour (default: 256 if no solution is "
+                      "found, with minimise if none is stable)"}
             .above_zero()
             .at_most(1e6)};
     for (const coupling::PeriodicOption &of : coupling::options_of_periodic_methods())
@@ -286,16 +287,17 @@ std::vector<std::pair<std::string, std::string>> orbits_of(const Result &result)
 AnalysisEntry periodic_analysis()
 {
   AnalysisEntry entry = analysis_entry<Periodic, PeriodicResult>(
-      "periodic", "periodic motions and their stability",
+      "periodic", "periodic solutions and their stability",
       {"gestell periodic apps/scenes/press.toml",
        "gestell periodic apps/scenes/press.toml --along parameters.s_cl --from \"0.1 mm\" --to \"0.6 mm\""},
-      {{"solutions.csv", "periodic motions with their stability and signals, of `periodic`", csv_of<solutions_csv>},
-       {"multipliers.csv", "their Floquet multipliers", csv_of<multipliers_csv>},
-       {"special_points.csv", "where they begin, end or change, with `periodic --along`", csv_of<special_points_csv>},
-       {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits_of},
-       {"section.csv", "a motion at the start of every period, where `periodic` follows it for long",
+      {{"solutions.csv", "periodic solutions with stability and signals, by `periodic`", csv_of<solutions_csv>},
+       {"multipliers.csv", "Floquet multipliers of these solutions", csv_of<multipliers_csv>},
+       {"special_points.csv", "points where solutions begin, end or change, with `periodic --along`",
+        csv_of<special_points_csv>},
+       {"orbit_*.csv", "one period of all signals, for each solution number", nullptr, "", "", orbits_of},
+       {"section.csv", "states at the start of every period, if `periodic` computes the long-term behaviour",
         csv_of<section_csv>},
-       {"basins.csv", "which start settles to which motion, with `periodic --basins`", csv_of<basins_csv>}});
+       {"basins.csv", "basins of attraction, with `periodic --basins`", csv_of<basins_csv>}});
   entry.motions = "periodic motions";
   return entry;
 }

@@ -31,22 +31,22 @@ void describe(Visitor &v, const DescribedMotion &x)
     const auto &[name, sign] = x.result->coordinates[std::size_t(i)];
     initial.push_back({name, {sign * s.q[i], sign * s.v[i]}});
   }
-  v("period", s.period, "s", "of the motion");
-  v("ratio", s.ratio, "", "periods of the excitation in one of the motion");
-  v("residual", s.residual, "1", "how far the motion is from closing, relative");
+  v("period", s.period, "s", "period of the solution");
+  v("ratio", s.ratio, "", "periods of the excitation per period of the solution");
+  v("residual", s.residual, "1", "periodicity residual, relative");
   v("branch", entry.branch, "", "number of the branch");
   v("kind", kind_of(s), "", "periodic or sub-harmonic");
-  v("method", s.method, "", "that found it");
+  v("method", s.method, "", "method that found it");
   v("events", s.events.size(), "", "events in a period");
   v("notes", s.notes, "", "texts");
   v("stable", s.stability_is_known() ? std::optional(s.stable()) : std::nullopt, "", "null: not known");
-  v.maybe(s.verification.periods > 0, "verification", s.verification, "", "by a run of the scene");
+  v.maybe(s.verification.periods > 0, "verification", s.verification, "", "verification by a run of the scene");
   v.maybe(x.result && !x.result->parameter.empty(), "parameter", entry.parameter, "",
-          "value of the parameter that is followed");
-  v.maybe(!std::isnan(s.share), "share", s.share, "1", "of the starts that led there");
+          "value of the continuation parameter");
+  v.maybe(!std::isnan(s.share), "share", s.share, "1", "share of the initial states that led there");
   v("multipliers", multipliers, "1", "Floquet multipliers, real and imaginary part");
   v("signals", by_name(entry.signals, &SignalOrbit::name), "", "each signal over a period");
-  v("initial", initial, "", "by coordinate: value and rate at the start, as `[start]` takes them");
+  v("initial", initial, "", "value and rate of each coordinate at the start, in the form of `[start]`");
 }
 
 /// A point of the backbone.
@@ -74,7 +74,7 @@ struct PlaneAxis
 template <class Visitor>
 void describe(Visitor &v, const PlaneAxis &x)
 {
-  v("name", x.name, "", "coordinate, with ' its rate");
+  v("name", x.name, "", "coordinate, or its rate, marked by '");
   v("from", x.from, "", "first value");
   v("to", x.to, "", "last value");
 }
@@ -88,11 +88,11 @@ void describe(Visitor &v, const BasinMap &x)
   for (int number = 0; number <= most; ++number)
     if (x.basins.share(number) > 0.)
       shares.emplace_back(std::to_string(number), x.basins.share(number));
-  v("x", PlaneAxis{x.x_name, plane.x_begin, plane.x_end}, "", "first axis of the starts");
+  v("x", PlaneAxis{x.x_name, plane.x_begin, plane.x_end}, "", "first axis of the initial states");
   v("y", PlaneAxis{x.y_name, plane.y_begin, plane.y_end}, "", "second axis");
-  v("points", plane.points, "", "starts along each axis");
-  v("shares", shares, "1", "of the starts, by number of the motion that they settle to; 0: none of them");
-  v("complete", x.basins.is_complete(), "", "every start was examined");
+  v("points", plane.points, "", "initial states along each axis");
+  v("shares", shares, "1", "share of the initial states for each solution number; 0: none of them");
+  v("complete", x.basins.is_complete(), "", "whether every initial state was examined");
 }
 
 template <class Visitor>
@@ -108,22 +108,23 @@ void describe(Visitor &v, const PeriodicResult &x)
     for (const SignalOrbit &signal : entry.signals)
       backbone.back().amplitudes.emplace_back(signal.name, signal.amplitude.at(0));
   }
-  v("method", x.method, "", "of the search");
-  v("reason", x.reason, "", "why this method");
+  v("method", x.method, "", "method of the search");
+  v("reason", x.reason, "", "reason for this method");
   v("notes", x.notes, "", "texts");
   v("interrupted", x.interrupted, "", "the search was interrupted");
-  v("failure", unless_empty(x.failure), "", "why it ended early; null: it did not");
+  v("failure", unless_empty(x.failure), "", "reason for an early end; null: none");
   v.maybe(!x.parameter.empty(), "parameter",
           std::vector<std::pair<std::string, std::string>>{{"key", x.parameter}, {"unit", x.parameter_unit}}, "",
-          "that is followed");
-  v("solutions", motions, "", "motions found");
-  v("special_points", x.special_points, "", "where motions begin, end or change their stability");
+          "continuation parameter");
+  v("solutions", motions, "", "periodic solutions found");
+  v("special_points", x.special_points, "", "points where solutions begin, end or change their stability");
   v.maybe(x.long_run.has_value(), "recurrence", x.long_run ? x.long_run->motion : coupling::Recurrence(), "",
-          "what the motion does in the long run");
-  v.maybe(x.basins.has_value(), "basins", x.basins, "", "which start settles to which motion");
-  v.maybe(!backbone.empty(), "backbone", backbone, "", "free vibration, where the parameter is a load's frequency");
-  v("checks", x.checks, "", "a second way to the same motion");
-  v("work", x.work, "", "of the search");
+          "long-term behaviour");
+  v.maybe(x.basins.has_value(), "basins", x.basins, "", "basins of attraction");
+  v.maybe(!backbone.empty(), "backbone", backbone, "",
+          "backbone curve of free vibration, if the parameter is a load frequency");
+  v("checks", x.checks, "", "checks by a second method");
+  v("work", x.work, "", "work of the search");
 }
 
 } // namespace gestell::apps

@@ -59,7 +59,8 @@ void add_frequencies(PerturbedScenes &twins, const Result &result, SensitivityRe
   }
 }
 
-/// Derivatives of all scalar results of a run: docs/sensitivities.md.  `result` contains the run; warnings are added.
+/// Derivatives of all scalar results of a run: docs/theory/sensitivities.md.  `result` contains the run; warnings are
+/// added.
 SensitivityResult differentiated(RunInProgress &in, PerturbedScenes &twins, const std::vector<VariedKey> &keys)
 {
   Result           &result = in.result;

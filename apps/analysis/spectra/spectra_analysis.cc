@@ -61,7 +61,7 @@ AnalysisEntry spectra_analysis()
 {
   return analysis_entry<SpectraOfRun, RunSpectra>(
       "spectra", "", {},
-      {{"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed",
+      {{"orders.csv", "signals at multiples of a rotor speed, if the angle or speed is a signal",
         content_of<RunSpectra, orders_csv>}},
       "run");
 }

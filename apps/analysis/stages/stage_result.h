@@ -23,10 +23,10 @@ template <class Visitor>
 void describe(Visitor &v, const StageExtremes &x)
 {
   v("unit", x.unit, "", "of `min` and `max`");
-  v("min", x.min, x.unit, "smallest value, by the rows of history.csv");
-  v("t_min", x.t_min, "s", "its instant");
+  v("min", x.min, x.unit, "smallest value in history.csv");
+  v("t_min", x.t_min, "s", "its time");
   v("max", x.max, x.unit, "largest value");
-  v("t_max", x.t_max, "s", "its instant");
+  v("t_max", x.t_max, "s", "its time");
 }
 
 /// A part of a run between two events.
@@ -41,8 +41,8 @@ template <class Visitor>
 void describe(Visitor &v, const Stage &x)
 {
   v("name", x.name, "", "of the stage");
-  v("begin", x.begin, "s", "its first instant");
-  v("end", x.end, "s", "its last instant");
+  v("begin", x.begin, "s", "start of the stage");
+  v("end", x.end, "s", "end of the stage");
   v("signals", by_name(x.extremes, &StageExtremes::signal), "", "extremes of each signal within the stage");
 }
 
@@ -66,7 +66,7 @@ struct RingingMode
 template <class Visitor>
 void describe(Visitor &v, const RingingMode::Linearised &x)
 {
-  v("mode", x.mode, "", "its number");
+  v("mode", x.mode, "", "number of the mode");
   v("damped_frequency_hz", x.frequency_hz, "Hz", "damped frequency");
   v("damping_ratio", x.damping_ratio, "1", "damping ratio");
 }
@@ -76,9 +76,9 @@ void describe(Visitor &v, const RingingMode &x)
 {
   v("damped_frequency_hz", x.frequency_hz, "Hz", "damped frequency");
   v("damping_ratio", x.damping_ratio, "1", "damping ratio");
-  v("amplitudes", x.amplitudes, "", "by signal, at the start of the window");
-  v("combination", unless_empty(x.combination), "", "of stronger oscillations; null: it is a mode");
-  v("linearised", x.linearised, "", "nearest mode of the machine linearised at rest; null: none is near");
+  v("amplitudes", x.amplitudes, "", "amplitude of each signal at the start of the window");
+  v("combination", unless_empty(x.combination), "", "combination of stronger vibrations; null: it is a mode");
+  v("linearised", x.linearised, "", "nearest mode of the machine linearised at rest; null: none nearby");
 }
 
 /// Ringing in the last stage, after the last opening or closing of a contact.
@@ -96,11 +96,11 @@ void describe(Visitor &v, const Ringing &x)
 {
   v("begin", x.begin, "s", "start of the window");
   v("end", x.end, "s", "its end");
-  v("step", x.step, "s", "between samples");
+  v("step", x.step, "s", "interval of the samples");
   v("signals", x.signals, "", "signals that were fitted");
-  v("residual", x.residual, "1", "of the fit, relative to the signals");
-  v("modes", x.modes, "", "oscillations found, ascending in frequency");
-  v("note", x.note, "", "what was left out, or why there are none");
+  v("residual", x.residual, "1", "residual of the fit, relative to the signals");
+  v("modes", x.modes, "", "identified vibrations in ascending frequency");
+  v("note", x.note, "", "omitted vibrations, or the reason why there are none");
 }
 
 /// Interval in which a wheel is off the ground.
@@ -113,9 +113,9 @@ struct LiftOff
 template <class Visitor>
 void describe(Visitor &v, const LiftOff &x)
 {
-  v("wheel", x.wheel, "", "that is off the ground");
+  v("wheel", x.wheel, "", "name of the wheel");
   v("from", x.begin, "s", "begin");
-  v("to", x.end, "s", "end; that of the run if the wheel does not come down");
+  v("to", x.end, "s", "end; that of the run if the wheel stays in the air");
 }
 
 struct StageResult
@@ -129,8 +129,8 @@ template <class Visitor>
 void describe_answer(Visitor &v, const StageResult &x)
 {
   v.maybe(true, "stages", x.stages, "", "parts of the run between events");
-  v.maybe(true, "lift_off", x.lift_offs, "", "wheels off the ground");
-  v.maybe(true, "ringing", x.ringing, "", "oscillations in the last stage");
+  v.maybe(true, "lift_off", x.lift_offs, "", "wheels that lift off");
+  v.maybe(true, "ringing", x.ringing, "", "vibrations identified in the last stage");
 }
 
 std::vector<Section> sections_of(const Result &result, const StageResult &found);

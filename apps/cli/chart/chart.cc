@@ -408,24 +408,26 @@ Command chart_command()
       {{"--methods", &own->methods, "methods by name, such as bdf-2,exact*,cvode-5 (default: all)"},
        {"--steps", &own->steps, "fixed steps, such as \"40 us\",\"10 us\""},
        {"--tolerances", &own->tolerances, "tolerances of controlled steps, such as 1e-3,1e-5"},
-       {"--error", &own->errors, "errors a choice is offered for (default 1e-2,1e-3,1e-5,1e-7)"},
-       {"--signals", &own->signals, "signals that errors are measured in (default: all of the scene)"},
+       {"--error", &own->errors, "errors for which a choice is given (default 1e-2,1e-3,1e-5,1e-7)"},
+       {"--signals", &own->signals, "signals for the error (default: all of the scene)"},
        CommandOption{"--modes", &own->modes, "numbers of modes of the reduced frame, such as 10,20,50"}.above_zero(),
-       CommandOption{"--reference", &own->reference, "table of the true motion (CSV) instead of an own fine run"}
+       CommandOption{"--reference", &own->reference, "table of the reference motion (CSV), instead of a fine run"}
            .existing_file(),
-       CommandOption{"--events", &own->events, "on: located, off: passed over, both (default)"}.one_of(
+       CommandOption{"--events", &own->events, "on: located, off: detected after the step, both (default)"}.one_of(
            {"on", "off", "both"}),
-       {"--peers,!--no-peers", &own->peers, "general-purpose integrators as well (default)"},
-       {"--native-vectors", &own->native, "peers with vector arithmetic compiled for this processor"},
-       {"--quick", &own->quick, "a minute instead of ten: fewer methods, steps and tolerances"},
-       CommandOption{"--samples", &own->samples, "instants that errors are measured at (default 2000)"}.at_most(1e6),
-       CommandOption{"--limit", &own->limit, "CPU time of one run [s]; longer ones are given up (default 20, quick 5)"}
+       {"--peers,!--no-peers", &own->peers, "include general-purpose integrators (default)"},
+       {"--native-vectors", &own->native, "general-purpose integrators with vector loops compiled for this processor"},
+       {"--quick", &own->quick, "one minute instead of ten: fewer methods, steps and tolerances"},
+       CommandOption{"--samples", &own->samples, "number of instants for the error (default 2000)"}.at_most(1e6),
+       CommandOption{"--limit", &own->limit, "largest CPU time of one run [s] (default 20, with --quick 5)"}
            .above_zero(),
-       {"--reductions", &own->reductions.requested, "reductions of the frame instead, over numbers of modes"},
-       CommandOption{"--outputs", &own->reductions.outputs, "whose largest error they have, such as F_P.max,F_P.min"}
+       {"--reductions", &own->reductions.requested,
+        "compare reductions of the frame over numbers of modes, instead of integrators"},
+       CommandOption{"--outputs", &own->reductions.outputs,
+                     "outputs for the error of --reductions, such as F_P.max,F_P.min"}
            .with("--reductions"),
-       CommandOption{"--full", &own->reductions.full, "the full frame as reference, not one with many modes (slow)"}
-           .with("--reductions")},
+       CommandOption{"--full", &own->reductions.full, "full frame as the reference of --reductions (slow)"}.with(
+           "--reductions")},
       [own](const CommonOptions &options) { return make_chart(options, *own); }};
 }
 

@@ -36,12 +36,12 @@ template <class Visitor>
 void describe(Visitor &v, const LineRow &x)
 {
   v("min_hz", x.extremes.min, "Hz", "lowest frequency");
-  v("at_min", x.extremes.x_min, "", "coordinate there");
+  v("at_min", x.extremes.x_min, "", "coordinate at this frequency");
   v("max_hz", x.extremes.max, "Hz", "highest frequency");
-  v("at_max", x.extremes.x_max, "", "coordinate there");
-  v("least_mac", x.extremes.least_assurance, "1", "least assurance between neighbouring positions");
+  v("at_max", x.extremes.x_max, "", "coordinate at this frequency");
+  v("least_mac", x.extremes.least_assurance, "1", "smallest MAC between neighbouring positions");
   v("moves_most", x.moves_most, "", "dominant coordinate at the first position");
-  v("free", x.free, "", "without a frequency at every position");
+  v("free", x.free, "", "whether the frequency is zero at every position");
 }
 
 inline std::vector<LineRow> line_rows(const coupling::ModesAlong &modes)
@@ -55,14 +55,14 @@ inline std::vector<LineRow> line_rows(const coupling::ModesAlong &modes)
 template <class Visitor>
 void describe(Visitor &v, const AlongResult &x)
 {
-  v("coordinate", x.modes.coordinate.name, "", "that is moved");
+  v("coordinate", x.modes.coordinate.name, "", "coordinate that is varied");
   v("unit", x.modes.coordinate.unit, "", "of the coordinate");
   v("positions", x.modes.positions.size(), "", "number of positions");
-  v("linearisations", x.modes.linearisations, "", "positions, and what tracking took between them");
-  v("geometric", x.geometric == coupling::GeometricStiffness::included, "", "with geometric stiffness");
-  v("speed", x.speed, "rad/s", "of the excitation; 0: not known");
+  v("linearisations", x.modes.linearisations, "", "linearisations at positions and between them, for tracking");
+  v("geometric", x.geometric == coupling::GeometricStiffness::included, "", "whether geometric stiffness is included");
+  v("speed", x.speed, "rad/s", "speed of the excitation; 0: unknown");
   v("lines", line_rows(x.modes), "", "modes followed over the positions");
-  v("order_meetings", x.meetings, "", "where a frequency lies near a multiple of the speed");
+  v("order_meetings", x.meetings, "", "positions where a frequency is near a multiple of the speed");
 }
 
 } // namespace gestell::apps

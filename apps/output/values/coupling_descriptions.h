@@ -18,7 +18,7 @@ template <class Visitor>
 void describe(Visitor &v, const Event &x)
 {
   v("t", x.t, "s", "instant");
-  v("name", x.name, "", "of the scene's object");
+  v("name", x.name, "", "name of the object");
   v("kind", x.kind, "", "transition");
 }
 
@@ -29,17 +29,17 @@ void describe(Visitor &v, const Finding &x)
     "`warning`: the result is valid, but perhaps not what was meant; `error`: the run ended there");
   v("id", x.id, "", "kind of finding, the same in all versions; empty: of the frame or an analysis");
   v("place", x.place, "", "element, joint, switch, signal or key; empty: the run as a whole");
-  v("text", x.text, "", "what is wrong, where, and what to do");
+  v("text", x.text, "", "problem, location and remedy");
 }
 
 template <class Visitor>
 void describe(Visitor &v, const IntegrationWork &x)
 {
-  v("steps", x.steps, "", "steps accepted");
-  v("rejected", x.rejected, "", "steps divided or tried again");
+  v("steps", x.steps, "", "accepted steps");
+  v("rejected", x.rejected, "", "steps that were divided or repeated");
   v("newton", x.newton, "", "Newton iterations");
   v("factorisations", x.factorisations, "", "factorizations");
-  v("solves", x.solves, "", "solutions with them");
+  v("solves", x.solves, "", "solutions with these factorizations");
   v("evaluations", x.evaluations, "", "evaluations of the forces of all elements");
 }
 
@@ -47,10 +47,10 @@ template <class Visitor>
 void describe(Visitor &v, const SignalSummary &x)
 {
   v("unit", x.unit, "", "of `min`, `max` and `final`");
-  v("min", x.min, x.unit, "smallest value, over all steps and between them");
-  v("t_min", x.t_min, "s", "its instant");
+  v("min", x.min, x.unit, "smallest value over all steps and between them");
+  v("t_min", x.t_min, "s", "its time");
   v("max", x.max, x.unit, "largest value");
-  v("t_max", x.t_max, "s", "its instant");
+  v("t_max", x.t_max, "s", "its time");
   v("final", x.final, x.unit, "value at the end of the run");
 }
 
@@ -58,7 +58,7 @@ template <class Visitor>
 void describe(Visitor &v, const WorkCounts &x)
 {
   describe(v, static_cast<const IntegrationWork &>(x));
-  v("chatter", x.chatter, "", "steps with so many events that these were not located");
+  v("chatter", x.chatter, "", "steps in which events were too many to be located");
 }
 
 template <class Visitor>
@@ -66,9 +66,9 @@ void describe(Visitor &v, const EnergySummary &x)
 {
   v("input", x.input, "J", "work of the drives");
   v("stored", x.stored, "J", "change since the start");
-  v("dissipated", x.dissipated, "J", "by the laws of dampers, friction, contacts and tools");
+  v("dissipated", x.dissipated, "J", "energy dissipated by dampers, friction, contacts and tools");
   v("residual", x.residual, "J", "largest |input - stored - dissipated| over time");
-  v("exchanged", x.exchanged, "J", "energy that the residual is measured against");
+  v("exchanged", x.exchanged, "J", "reference energy of the residual");
 }
 
 template <class Visitor>
@@ -77,8 +77,8 @@ void describe(Visitor &v, const Pole &x)
   v("real", x.s.real(), "1/s", "real part");
   v("imaginary", x.s.imag(), "1/s", "imaginary part");
   v("frequency_hz", x.frequency_hz(), "Hz", "damped frequency");
-  v("damping_ratio", x.damping_ratio(), "1", "-Re s/|s|; negative: it grows");
-  v("moves_most", x.moves, "", "coordinate with most of the kinetic energy");
+  v("damping_ratio", x.damping_ratio(), "1", "-Re s/|s|; negative: growing");
+  v("moves_most", x.moves, "", "coordinate with the largest share of kinetic energy");
 }
 
 template <class Visitor>
@@ -86,48 +86,48 @@ void describe(Visitor &v, const OrderMeeting &x)
 {
   v("order", x.order, "", "multiple of the speed");
   v("line", x.line + 1, "", "number of the line");
-  v("from", x.begin, "", "start of the stretch of the coordinate");
-  v("to", x.end, "", "its end");
-  v("nearest_at", x.x, "", "coordinate where they are nearest");
-  v("frequency_hz", x.frequency_hz, "Hz", "natural frequency there");
+  v("from", x.begin, "", "start of the range of the coordinate");
+  v("to", x.end, "", "end");
+  v("nearest_at", x.x, "", "coordinate of the smallest distance");
+  v("frequency_hz", x.frequency_hz, "Hz", "natural frequency at this position");
 }
 
 template <class Visitor>
 void describe(Visitor &v, const ResponsePeak &x)
 {
   v("frequency_hz", x.frequency_hz, "Hz", "of the maximum");
-  v("amplitude", x.amplitude, "", "in the unit of the pair; null: infinite, of an undamped mode");
-  v("damping_ratio", x.damping_ratio, "1", "by the width of the peak; null: not told");
+  v("amplitude", x.amplitude, "", "amplitude in the unit of the pair; null: infinite (undamped mode)");
+  v("damping_ratio", x.damping_ratio, "1", "damping ratio from the width of the peak; null: unknown");
 }
 
 template <class Visitor>
 void describe(Visitor &v, const ModeAccuracy &x)
 {
   v("modes_of", x.origin == ModeOrigin::base ? "base" : "closed", "",
-    "`base`: machine with open contacts, in the motions its joints leave free; `closed`: all contacts closed");
-  v("number", x.number, "", "by frequency, from 1 on");
-  v("frequency_hz", x.mode.omega / two_pi, "Hz", "of the damped mode, |s|/2 pi");
+    "`base`: machine with open contacts, in the DOFs left free by its joints; `closed`: all contacts closed");
+  v("number", x.number, "", "number in order of frequency, starting at 1");
+  v("frequency_hz", x.mode.omega / two_pi, "Hz", "frequency of the damped mode, |s|/2 pi");
   v("damping_ratio", x.mode.zeta, "1", "-Re s/|s|");
   v("omega_h", x.omega_h, "1", "circular frequency times step");
   v("spectral_radius", x.spectral_radius, "1", "growth per step");
   v("numerical_damping", x.numerical_damping, "1", "damping ratio that the method adds");
-  v("period_error", x.period_error, "1", "relative, positive: too slow");
-  v("unstable", x.unstable, "", "grows");
+  v("period_error", x.period_error, "1", "relative period error; positive: too slow");
+  v("unstable", x.unstable, "", "whether the mode grows");
 }
 
 template <class Visitor>
 void describe(Visitor &v, const RunVerification &x)
 {
-  v("periods", x.periods, "", "periods that were run");
-  v("departure", x.departure, "1", "from the motion, relative");
-  v("starts_anew", x.starts_anew, "", "the run began anew in each period");
+  v("periods", x.periods, "", "periods of the run");
+  v("departure", x.departure, "1", "departure from the solution, relative");
+  v("starts_anew", x.starts_anew, "", "whether the run restarted in each period");
 }
 
 template <class Visitor>
 void describe(Visitor &v, const PeriodicWork &x)
 {
-  v("iterations", x.iterations, "", "of the search");
-  v("periods", x.periods, "", "integrated");
+  v("iterations", x.iterations, "", "iterations of the search");
+  v("periods", x.periods, "", "periods integrated");
   v("steps", x.integration.steps, "", "steps of the integration");
   v("newton", x.integration.newton, "", "Newton iterations");
   v("factorisations", x.integration.factorisations, "", "factorizations");
@@ -138,10 +138,10 @@ template <class Visitor>
 void describe(Visitor &v, const Recurrence &x)
 {
   v("kind", x.kind, "", "periodic, sub-harmonic, settling, drifting, quasi-periodic or chaotic");
-  v("repeats", x.repeats, "", "periods after which it repeats; 0: none up to 16");
+  v("repeats", x.repeats, "", "periods until repetition; 0: none up to 16");
   v("exponent", x.exponent, "1/s", "largest Lyapunov exponent");
-  v("error", x.error, "1/s", "its standard error");
-  v("periods", x.periods, "", "periods that were examined");
+  v("error", x.error, "1/s", "standard error of the exponent");
+  v("periods", x.periods, "", "number of periods examined");
 }
 
 } // namespace gestell::coupling
@@ -153,8 +153,8 @@ template <class Visitor>
 void describe(Visitor &v, const FrameFacts::SolidMass &x)
 {
   v("name", x.name, "", "of the solid");
-  v("material", x.material, "", "empty: an attached mass");
-  v("mass", x.mass, "kg", "its mass");
+  v("material", x.material, "", "material; empty for an attached mass");
+  v("mass", x.mass, "kg", "mass of the solid");
 }
 
 } // namespace gestell::fem

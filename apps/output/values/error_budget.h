@@ -32,10 +32,10 @@ void describe_errors(Visitor &v, const BudgetEntry &x)
 {
   v("value", x.value, x.unit, "of the output");
   v("unit", x.unit, "", "of value and errors");
-  v("mesh", x.mesh.error, x.unit, "error by the mesh; null: not known");
-  v("reduction", x.reduction.error, x.unit, "error by the reduction; null: not known");
-  v("time", x.time.error, x.unit, "error by the integration; null: not known");
-  v("total", x.total, x.unit, "sum of the three; null: one is not known");
+  v("mesh", x.mesh.error, x.unit, "error due to the mesh; null: unknown");
+  v("reduction", x.reduction.error, x.unit, "error due to the reduction; null: unknown");
+  v("time", x.time.error, x.unit, "error due to the time integration; null: unknown");
+  v("total", x.total, x.unit, "sum of the three; null: one is unknown");
 }
 
 template <class Visitor>
@@ -48,7 +48,7 @@ void describe(Visitor &v, const BudgetEntry &x)
   v("reasons",
     std::vector<std::pair<std::string, std::string>>{
         {"mesh", x.mesh.reason}, {"reduction", x.reduction.reason}, {"time", x.time.reason}},
-    "", "why an error is not known, or what it rests on");
+    "", "reason why an error is unknown, or its basis");
 }
 
 /// Errors of chosen outputs, as sums of mesh, reduction and integration errors.

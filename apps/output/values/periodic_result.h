@@ -122,7 +122,7 @@ void describe(Visitor &v, const SpecialPoint &x)
 {
   v("kind", x.kind, "", "fold, period doubling, Neimark-Sacker, branch or grazing");
   v("parameter", x.parameter, "", "value of the parameter");
-  v("period", x.period, "s", "of the motion");
+  v("period", x.period, "s", "period of the solution");
   v("solution", x.solution, "", "number of the nearest solution");
 }
 
@@ -130,8 +130,9 @@ template <class Visitor>
 void describe(Visitor &v, const PeriodicCheck &x)
 {
   v("method", x.method, "", "of the check");
-  v("distances", x.distances, "1", "by signal: largest difference over its amplitude");
-  v("failure", x.failure.empty() ? std::nullopt : std::optional(x.failure), "", "why there is none; null: there is");
+  v("distances", x.distances, "1", "largest difference of each signal relative to its amplitude");
+  v("failure", x.failure.empty() ? std::nullopt : std::optional(x.failure), "",
+    "reason why there is none; null: there is one");
 }
 
 } // namespace gestell::apps

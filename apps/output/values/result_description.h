@@ -20,53 +20,53 @@ template <class Visitor>
 void describe(Visitor &v, const ModelFacts &x)
 {
   const auto count = [&](const char *name, int n, const char *meaning) { v.maybe(n >= 0, name, n, "", meaning); };
-  count("dofs", x.dofs, "coordinates integrated");
-  count("interface", x.interface, "coordinates q1 of the frame");
-  count("modes", x.modes, "internal modes retained");
+  count("dofs", x.dofs, "DOFs of the time integration");
+  count("interface", x.interface, "interface DOFs q1 of the frame");
+  count("modes", x.modes, "retained internal modes");
   count("nonlinear", x.nonlinear, "measures of nonlinear elements");
-  count("frame_dofs", x.frame_dofs, "coordinates of the unreduced frame");
+  count("frame_dofs", x.frame_dofs, "DOFs of the unreduced frame");
   count("cells", x.cells, "finite elements");
   v("frame_mass", x.frame_mass, "kg", "mass of the frame");
-  v("frequency_error", x.frequency_error, "1", "largest relative error of a frequency by the reduction, estimated");
-  v("static_residual", x.static_residual, "1", "part of the static load on q2 that the modes do not carry");
+  v("frequency_error", x.frequency_error, "1", "largest estimated relative error of a frequency due to the reduction");
+  v("static_residual", x.static_residual, "1", "share of the static load on q2 that the modes do not represent");
   v.maybe(!std::isnan(x.frequency_limit), "frequency_limit_hz", x.frequency_limit, "Hz",
-          "up to which a reduced frame is made to hold");
+          "frequency up to which the reduced frame is valid");
   const bool cells = x.frame.whole.mass > 0., frame = !x.damping.empty();
   v.maybe(cells, "centre", x.frame.whole.centre, "m", "centre of mass of the frame");
-  v.maybe(cells, "inertia", rows_of(x.frame.whole.inertia), "kg m^2", "inertia about it, rows of the tensor");
+  v.maybe(cells, "inertia", rows_of(x.frame.whole.inertia), "kg m^2", "inertia about the centre, rows of the tensor");
   v.maybe(cells, "parts", x.frame.parts, "", "solids and attached masses");
   v.maybe(cells, "rigid_energy", x.frame.rigid_energy, "1",
-          "share of elastic energies that does not cancel in a rigid motion of the frame without supports");
-  v.maybe(frame, "free_motions", x.free_motions, "", "modes of frequency zero");
-  v.maybe(frame, "free_motion_names", x.frame.free_motions, "", "names of these motions");
-  v.maybe(frame, "damping", x.damping, "", "of the frame, a text");
-  v.maybe(frame && !x.mesh.empty(), "mesh", x.mesh, "", "what is not known of its mesh");
-  v.maybe(frame, "statements", x.statements, "", "what was checked of the frame and holds");
+          "relative elastic energy of rigid-body displacements of the unsupported frame; rounding error only");
+  v.maybe(frame, "free_motions", x.free_motions, "", "number of rigid-body modes");
+  v.maybe(frame, "free_motion_names", x.frame.free_motions, "", "names of the rigid-body modes");
+  v.maybe(frame, "damping", x.damping, "", "damping of the frame, as text");
+  v.maybe(frame && !x.mesh.empty(), "mesh", x.mesh, "", "remarks about the mesh");
+  v.maybe(frame, "statements", x.statements, "", "checks of the frame that passed");
 }
 
 template <class Visitor>
 void describe(Visitor &v, const Request &x)
 {
-  v("file", x.file, "", "of the scene, as it was given");
-  v("set", x.set, "", "entries overridden on the command line");
+  v("file", x.file, "", "path of the scene as given");
+  v("set", x.set, "", "keys overridden on the command line");
   const coupling::RunOptions run = x.run.value_or(coupling::RunOptions());
   v.maybe(x.run.has_value(), "method", x.run ? coupling::method_name(run.method) : "", "", "method of integration");
   v.maybe(x.run.has_value(), "tolerance", unless_zero(run.method.tolerance), "1", "null: the step is fixed");
   v.maybe(x.run.has_value(), "step", unless_zero(run.method.step), "s", "null: the step is controlled");
   v.maybe(x.run.has_value(), "begin", run.begin, "s", "start of the run");
-  v.maybe(x.run.has_value(), "end", run.end, "s", "end asked for");
-  v.maybe(x.run.has_value(), "from", std::max(run.from, run.begin), "s", "where extremes begin to count");
-  v.maybe(x.run.has_value(), "events", run.events, "", "events are located");
+  v.maybe(x.run.has_value(), "end", run.end, "s", "requested end");
+  v.maybe(x.run.has_value(), "from", std::max(run.from, run.begin), "s", "start of the window for extremes");
+  v.maybe(x.run.has_value(), "events", run.events, "", "whether events are located");
 }
 
 template <class Visitor>
 void describe(Visitor &v, const PeakState &x)
 {
-  v("signal", x.signal, "", "its name");
-  v("value", x.value, x.unit, "its extreme");
+  v("signal", x.signal, "", "name of the signal");
+  v("value", x.value, x.unit, "extreme value");
   v("t", x.t, "s", "instant of the extreme");
   v("half_swing", x.half_swing > 0. ? std::optional(x.half_swing) : std::nullopt, "s",
-    "to the turning point beside it; null: there is none");
+    "half-period: time to the neighbouring turning point; null: none");
 }
 
 /// Energy shares of a coupled mode.
@@ -103,13 +103,13 @@ struct Outcome
 template <class Visitor>
 void describe(Visitor &v, const Outcome &x)
 {
-  v("method", x.method, "", "that ran");
+  v("method", x.method, "", "method of integration used");
   v("begin", x.begin, "s", "start of the run");
-  v("end", x.end, "s", "end that it reached");
+  v("end", x.end, "s", "end reached");
   v("events_located", x.events_located, "", "number of events");
-  v("complete", x.complete, "", "the run came to its end");
-  v("interrupted", x.interrupted, "", "the run was interrupted");
-  v("failure", unless_empty(x.failure), "", "why it stopped early; null: it did not");
+  v("complete", x.complete, "", "whether the run reached its end");
+  v("interrupted", x.interrupted, "", "whether the run was interrupted");
+  v("failure", unless_empty(x.failure), "", "reason for an early stop; null: none");
 }
 
 inline Outcome outcome_of(const coupling::RunResult &run, const Request &requested)
@@ -142,40 +142,39 @@ void describe(Visitor &v, const Result &x)
                             run.energy.exchanged > 0. || run.energy.residual > 0.;
 
   v("scene", x.scene, "", "name of the scene");
-  v("version", x.version, "", "of the program");
-  v("commit", unless_empty(x.commit), "", "the program was built from; null: without a repository");
-  v("command", x.command, "", "of the program");
-  v("asked", x.requested, "", "what was asked for");
-  v.maybe(x.run.has_value(), "outcome", outcome_of(run, x.requested), "", "how the run went");
+  v("version", x.version, "", "version of the program");
+  v("commit", unless_empty(x.commit), "", "commit from which the program was built; null: unknown");
+  v("command", x.command, "", "version of the program");
+  v("asked", x.requested, "", "request");
+  v.maybe(x.run.has_value(), "outcome", outcome_of(run, x.requested), "", "outcome of the run");
   v("model", x.model, "", "size and accuracy of the model");
-  v("bodies_from_cad", x.bodies_from_cad, "", "texts: file, mass, centre and inertia of each body read from CAD");
+  v("bodies_from_cad", x.bodies_from_cad, "", "file, mass, centre and inertia of each body from CAD, as text");
   v("frequencies_hz",
     frequencies(x.coupled_modes.empty() ? x.frame_modes : x.coupled_modes, &coupling::Mode::frequency_hz), "Hz",
-    "undamped, of the coupled machine; of the frame where there is no machine");
+    "undamped frequencies of the coupled machine, or of the frame if there is no mechanism");
   v("frame_frequencies_hz", frequencies(x.frame_modes, &coupling::Mode::frequency_hz), "Hz",
-    "undamped, of the frame alone as it is supported");
+    "undamped frequencies of the supported frame alone");
   v("frame_refined_frequencies_hz", frequencies(x.frame_modes, &coupling::Mode::refined_hz), "Hz",
-    "the same by one more step of inverse iteration, nearer to those of the whole mesh; null: not known");
-  v("operating_poles", x.poles, "", "of a machine with drives, at the speeds of the start");
+    "the same after one more step of inverse iteration, closer to those of the whole mesh; null: unknown");
+  v("operating_poles", x.poles, "", "poles of a machine with drives, at the initial speeds");
   v.maybe(x.energy_shares.has_value(), "mode_energies",
           mode_energies(x.energy_shares.value_or(coupling::EnergyShares())), "",
           "shares of the energies of each coupled mode");
   for (const auto &answer : x.answers)
     answer->describe(v);
   part("size", x.size, "`size`");
-  part("story", x.story, "of a run with events");
+  part("story", x.story, "event log of a run");
   part("stress", x.stress, "`[output.stress]`");
-  part("main_peak", x.peak, "extreme of the first signal in N, else of the first of all, that is larger");
+  part("main_peak", x.peak, "larger extreme of the first signal in N, or else of the first signal");
   v("signals", by_name(run.signals, &coupling::SignalSummary::name), "", "extremes of each signal");
   v("events", run.events, "", "in the order of time");
   v("method", run.method, "", "method of integration with its parameters");
-  v("accuracy", run.accuracy, "",
-    "what the method with its fixed step makes of each mode; empty with a controlled step");
+  v("accuracy", run.accuracy, "", "accuracy of the fixed step for each mode; empty with a controlled step");
   v("work", run.work, "", "of the integration");
-  v("wall_s", x.wall_s, "s", "by phase; `program`: CPU time until the scene is read");
-  v("energy", keeps_energy ? std::optional(run.energy) : std::nullopt, "", "null: no balance was kept");
+  v("wall_s", x.wall_s, "s", "wall time by phase; `program`: CPU time until the scene is read");
+  v("energy", keeps_energy ? std::optional(run.energy) : std::nullopt, "", "energy balance; null: not computed");
   v("warnings", all_warnings(x), "", "texts of all findings");
-  v("findings", all_findings(x), "", "warnings, and why a run stopped early");
+  v("findings", all_findings(x), "", "warnings, and the reason for an early stop");
 }
 
 } // namespace gestell::apps

@@ -23,14 +23,15 @@ template <class Visitor>
 void describe(Visitor &v, const LoadOnMode &x)
 {
   v("mode", x.mode < 0 ? std::nullopt : std::optional(x.mode + 1), "",
-    "number in the table of modes; null: none has its shape");
+    "number in the table of modes; null: none has this shape");
   v("frequency_hz", x.frequency_hz, "Hz", "undamped, 1/T");
   v("duration_over_period", x.duration, "1", "duration of the load over T");
-  v("rise_over_period", x.rise, "1", "its rise over T");
-  v("fall_over_period", x.fall, "1", "its fall over T");
-  v("fall_factor", x.fall_factor, "1", "amplitude that the fall leaves, over that of a sudden one");
-  v("energy", x.energy, "J", "energy that the fall leaves in the mode; null: not known");
-  v("strain_energy_in", x.strain, "", "part with most of its strain energy");
+  v("rise_over_period", x.rise, "1", "rise time over T");
+  v("fall_over_period", x.fall, "1", "fall time over T");
+  v("fall_factor", x.fall_factor, "1",
+    "residual vibration ratio: amplitude after the fall, relative to that after a sudden fall");
+  v("energy", x.energy, "J", "energy of the mode after the fall; null: unknown");
+  v("strain_energy_in", x.strain, "", "part with the largest share of strain energy");
 }
 
 /// A technological force from its first contact to its fall.
@@ -53,21 +54,21 @@ template <class Visitor>
 void describe(Visitor &v, const LoadDuration &x)
 {
   v("signal", x.signal, "", "of the force");
-  v("element", x.element, "", "that exerts it");
+  v("element", x.element, "", "element that exerts the force");
   v("begin", x.begin, "s", "first instant above 1 % of the peak");
   v("end", x.end, "s", "last instant above 1 % of the peak");
-  v("peak", x.peak, x.unit, "largest force, with its sign");
-  v("t_peak", x.t_peak, "s", "its instant");
-  v("rise", x.rise, "s", "from the begin to 90 % of the peak");
-  v("t_fall", x.t_fall, "s", "where the force begins to fall below 90 % of the peak");
-  v("fall", x.fall, "s", "from there to its end");
-  v("row_step", x.row_step, "s", "largest distance of the rows these times are read from");
-  v("is_coarse", x.is_coarse(), "", "rows are too far apart for these times");
+  v("peak", x.peak, x.unit, "largest force, with sign");
+  v("t_peak", x.t_peak, "s", "its time");
+  v("rise", x.rise, "s", "time from the start to 90 % of the peak");
+  v("t_fall", x.t_fall, "s", "time at which the force drops below 90 % of the peak");
+  v("fall", x.fall, "s", "time from there to the end");
+  v("row_step", x.row_step, "s", "largest interval of the rows used for these times");
+  v("is_coarse", x.is_coarse(), "", "whether the rows are too far apart for these times");
   v("t_modes", x.unknown.empty() ? std::optional(x.t_modes) : std::nullopt, "s",
-    "instant of the modes; null: no state was kept there");
-  v("place", x.place, "", "of the machine at that instant");
-  v("no_modes_because", x.unknown, "", "why there are no modes; empty: there are");
-  v("modes", x.modes, "", "modes of the machine as it stands there");
+    "time of the modes; null: no state was stored there");
+  v("place", x.place, "", "configuration of the machine at that time");
+  v("no_modes_because", x.unknown, "", "reason why there are no modes; empty: there are some");
+  v("modes", x.modes, "", "modes of the machine in this configuration");
 }
 
 /// A signal of an object at one of its located events.
@@ -84,15 +85,16 @@ template <class Visitor>
 void describe(Visitor &v, const EventValue &x)
 {
   v("t", x.t, "s", "instant");
-  v("object", x.object, "", "whose event it is");
+  v("object", x.object, "", "object of the event");
   v("event", x.event, "", "kind of the event");
   v("signal", x.signal, "", "of the object");
   v("unit", x.unit, "", "of `before` and `behind`");
   v("before", x.before, "", "value just before the event");
-  v("behind", x.after, "", "value just behind it");
-  v("rate", x.rate, "", "`unit`/s, of a displacement, just before; null: of a force, or not known");
+  v("behind", x.after, "", "value just after the event");
+  v("rate", x.rate, "", "rate of a displacement just before the event, `unit`/s; null for a force, or unknown");
   v("impulse", x.impulse, "",
-    "`unit` s, of a force until the next event of its object; null: of a displacement, or rows are too far apart");
+    "impulse of a force until the next event of its object, `unit` s; null for a displacement, or if rows are too far "
+    "apart");
 }
 
 /// The extreme of a force, and the vibration around it.
@@ -112,18 +114,20 @@ void describe(Visitor &v, const ExtremeSwing &x)
 {
   v("signal", x.signal, "", "of the force");
   v("extreme", x.largest ? "max" : "min", "", "`max` or `min`");
-  v("t", x.t, "s", "its instant");
-  v("value", x.value, "", "with its sign");
+  v("t", x.t, "s", "its time");
+  v("value", x.value, "", "value, with sign");
   v("unit", x.unit, "", "of `value`");
   v("swing_hz", x.swing_hz, "Hz",
-    "1/(2 time) between the turning points of the swing; null: it does not turn there, or rows are too far apart");
+    "frequency 1/(2 x time between turning points); null: no turning points, or rows too far apart");
   v("mode", x.mode < 0 ? std::nullopt : std::optional(x.mode + 1), "",
-    "number, in the table of modes, of the mode that makes most of the swing; null: none has its shape");
+    "number (in the table of modes) of the mode with the largest share of the oscillation; null: none has this shape");
   v("mode_hz", x.mode_hz, "Hz",
-    "its frequency where the swing turns; null: no states were kept, or positions do not tell the force");
-  v("share", x.share, "1", "what it makes of the force's change in the swing");
-  v("sum_of_shares", x.sum, "1", "over all modes; far from 1: positions alone do not tell the force");
-  v("strain_energy_in", x.strain, "", "part with most strain energy of the mode");
+    "frequency of this mode at the turning point; null: no states were stored, or the force does not follow from "
+    "positions");
+  v("share", x.share, "1", "share of the mode in the change of the force");
+  v("sum_of_shares", x.sum, "1",
+    "sum of the shares of all modes; far from 1: the force does not follow from positions alone");
+  v("strain_energy_in", x.strain, "", "part with the largest strain energy of the mode");
 }
 
 /// An element with clearance: its describing function compared with the run.
@@ -141,19 +145,19 @@ struct PlayEstimate
 template <class Visitor>
 void describe(Visitor &v, const PlayEstimate &x)
 {
-  v("element", x.element, "", "with play");
-  v("signal", x.signal, "", "of its measure");
+  v("element", x.element, "", "element with clearance");
+  v("signal", x.signal, "", "signal of its measure");
   v("unit", x.unit, "", "of `amplitude` and `mean`");
   v("begin", x.begin, "s", "start of the oscillation");
-  v("end", x.end, "s", "its end");
+  v("end", x.end, "s", "end");
   v("amplitude", x.amplitude, "", "of the measure");
   v("mean", x.mean, "", "of the measure");
-  v("stiffness_share", x.stiffness_share, "1", "equivalent over engaged stiffness");
+  v("stiffness_share", x.stiffness_share, "1", "ratio of equivalent to closed stiffness");
   v("mode", x.mode + 1, "", "number of the mode");
-  v("frequency_hz", x.frequency_hz, "Hz", "by the describing function");
+  v("frequency_hz", x.frequency_hz, "Hz", "frequency by the describing function");
   v("seen_hz", x.seen_hz, "Hz", "in the run");
-  v("closed_hz", x.closed_hz, "Hz", "with the play closed");
-  v("limits", x.limits, "", "where the estimate does not hold; empty: it does");
+  v("closed_hz", x.closed_hz, "Hz", "frequency with the clearance closed");
+  v("limits", x.limits, "", "limits of the estimate; empty: none");
 }
 
 /// Facts about a run with events.
@@ -168,10 +172,10 @@ struct RunStory
 template <class Visitor>
 void describe(Visitor &v, const RunStory &x)
 {
-  v("loads", x.loads, "", "forces that act for a time");
+  v("loads", x.loads, "", "forces of limited duration");
   v("events", x.events, "", "signals at located events of their objects");
-  v("extremes", x.extremes, "", "swings about the extremes of forces and torques");
-  v("plays", x.plays, "", "oscillations of elements with play");
+  v("extremes", x.extremes, "", "oscillations around the extremes of forces and torques");
+  v("plays", x.plays, "", "oscillations of elements with clearance");
 }
 
 } // namespace gestell::apps

@@ -22,9 +22,9 @@ template <class Visitor>
 void describe(Visitor &v, const SensitivityKey &x)
 {
   v("key", x.key, "", "of the scene");
-  v("value", x.value, x.unit, "its value");
-  v("unit", x.unit, "", "its unit; empty: a plain number, in SI");
-  v.maybe(!x.frame.empty(), "frame", x.frame, "", "how the frame's share is found");
+  v("value", x.value, x.unit, "value of the parameter");
+  v("unit", x.unit, "", "unit of the parameter; empty: plain number in SI");
+  v.maybe(!x.frame.empty(), "frame", x.frame, "", "method for the contribution of the frame");
 }
 
 /// A scalar result of the run with its derivatives.
@@ -54,9 +54,9 @@ template <class Visitor>
 void describe(Visitor &v, const Derivative &x)
 {
   v("key", x.key, "", "of the scene");
-  v("derivative", x.derivative, x.unit, "of the output by the key; null: there is none");
+  v("derivative", x.derivative, x.unit, "derivative of the output by the parameter; null: none");
   v("unit", x.unit, "", "of the derivative");
-  v("change_by_1_percent", x.percent, "%", "relative change of the output by 1 % more of the key");
+  v("change_by_1_percent", x.percent, "%", "relative change of the output for a 1 % larger parameter");
 }
 
 /// An output with its derivatives, for JSON.
@@ -91,8 +91,9 @@ void describe(Visitor &v, const OutputDerivatives &x)
   const SensitivityOutput output = x.output ? *x.output : SensitivityOutput();
   v("value", output.value, output.unit, "of the output");
   v("unit", output.unit, "", "of the output");
-  v("derivatives", x.derivatives, "", "by each key");
-  v.maybe(!output.note.empty(), "note", output.note, "", "of an event what happens; or why there is no derivative");
+  v("derivatives", x.derivatives, "", "derivatives by each parameter");
+  v.maybe(!output.note.empty(), "note", output.note, "",
+          "change at an event, or the reason why there is no derivative");
 }
 
 template <class Visitor>
@@ -109,12 +110,12 @@ void describe(Visitor &v, const SensitivityResult &x)
           {key.key, derivative_unit(output, key), output.derivative[k], output.percent(key, k)});
     }
   }
-  v("keys", x.keys, "", "entries of the scene");
+  v("keys", x.keys, "", "parameters of the scene");
   v("outputs", outputs, "", "of the run");
-  v.maybe(!x.failure.empty(), "failure", x.failure, "", "why there are no derivatives");
-  v("steps", x.steps, "", "of the variational equations");
+  v.maybe(!x.failure.empty(), "failure", x.failure, "", "reason why there are no derivatives");
+  v("steps", x.steps, "", "steps of the variational equations");
   v("cpu_s", std::vector<std::pair<std::string, double>>{{"run", x.run_cpu_s}, {"sensitivities", x.cpu_s}}, "s",
-    "of the run and of all derivatives");
+    "CPU time of the run and of all derivatives");
 }
 
 } // namespace gestell::apps

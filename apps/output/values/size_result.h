@@ -96,17 +96,17 @@ void describe(Visitor &v, const SizeRung &x)
   for (const BudgetEntry &entry : x.entries)
     outputs.push_back({entry.output, {entry}});
   v("mesh_size", x.mesh_size > 0. ? std::optional(x.mesh_size) : std::nullopt, "m", "null: not chosen");
-  v("sides", unless_empty(x.cells), "", "kind of cells; null: not chosen");
-  v("coordinates", x.coordinates, "", "of the unreduced frame");
-  v("interface", x.interface, "", "coordinates q1 of the frame");
+  v("sides", unless_empty(x.cells), "", "kind of elements; null: not chosen");
+  v("coordinates", x.coordinates, "", "DOFs of the unreduced frame");
+  v("interface", x.interface, "", "interface DOFs q1 of the frame");
   v("modes", x.modes >= 0 ? std::optional(x.modes) : std::nullopt, "", "null: not chosen");
   v("reduction", x.reduction.empty() ? std::nullopt : std::optional(x.reduction), "", "null: none");
-  v("method", x.method, "", "of integration");
+  v("method", x.method, "", "method of integration");
   v("step", x.step, "s", "of the integration");
-  v("tolerance", x.tolerance, "1", "of the step's control; 0: the step is fixed");
-  v("cpu_s", x.cpu_s, "s", "from CAD to the end of the run");
-  v("share", x.share, "1", "largest error of an output over the allowed one; null: one is not known");
-  v("worst", x.worst, "", "largest contribution to it");
+  v("tolerance", x.tolerance, "1", "tolerance of the step control; 0: fixed step");
+  v("cpu_s", x.cpu_s, "s", "CPU time from CAD to the end of the run");
+  v("share", x.share, "1", "largest ratio of error to allowed error; null: unknown");
+  v("worst", x.worst, "", "largest contribution to this error");
   v("outputs", outputs, "", "errors of each output");
 }
 
@@ -122,27 +122,28 @@ void describe(Visitor &v, const SizeProof &x)
 {
   v("value", x.value, x.unit, "of the chosen model");
   v("finer", x.finer, x.unit, "of the finer model");
-  v("difference", std::abs(x.finer - x.value), x.unit, "between them");
+  v("difference", std::abs(x.finer - x.value), x.unit, "difference of the two");
 }
 
 template <class Visitor>
 void describe(Visitor &v, const SizeResult &x)
 {
-  v("tolerance", x.tolerance, "1", "relative, of each output");
-  v("met", x.met, "", "the chosen model stays within the tolerance");
-  v("stopped", unless_empty(x.stopped), "", "why nothing finer was tried; null: the tolerance is met");
+  v("tolerance", x.tolerance, "1", "relative tolerance of each output");
+  v("met", x.met, "", "whether the chosen model is within the tolerance");
+  v("stopped", unless_empty(x.stopped), "", "reason why no finer model was tried; null: the tolerance is met");
   v("chosen", x.ladder.empty() ? ChosenRung() : ChosenRung{x.chosen + 1, x.ladder.at(x.chosen)}, "",
     "the chosen model");
-  v("proof", by_name(x.proof, &SizeProof::output), "", "outputs beside those of a model that is finer in everything");
-  v("finer", x.finer, "", "that model");
-  v("left_out", x.left_out, "", "what the scene could do without");
-  v("missing", x.missing, "", "what it may lack");
-  v("skipped", x.skipped, "", "models whose mesh or frame could not be made, and why");
-  v("unasked", x.unasked, "", "questions that would have cost too much");
+  v("proof", by_name(x.proof, &SizeProof::output), "",
+    "verification: outputs compared with those of a model that is finer in every respect");
+  v("finer", x.finer, "", "description of the finer model");
+  v("left_out", x.left_out, "", "parts of the scene that could be omitted");
+  v("missing", x.missing, "", "effects that the model may lack");
+  v("skipped", x.skipped, "", "models whose mesh or frame could not be made, with the reason");
+  v("unasked", x.unasked, "", "variants not examined because of their cost");
   v("cost",
     std::vector<std::pair<std::string, double>>{
         {"cpu_s", x.cpu_s}, {"runs", x.ladder.empty() ? 0. : x.runs()}, {"forecast_cpu_s", x.forecast.cpu_s}},
-    "", "of the search: CPU time [s], in runs of the chosen model, and as forecast [s]");
+    "", "cost of the search: CPU time [s], number of equivalent runs of the chosen model, and forecast [s]");
 }
 
 } // namespace gestell::apps

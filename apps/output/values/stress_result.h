@@ -29,11 +29,11 @@ template <class Visitor>
 void describe(Visitor &v, const StressPlace &x)
 {
   v("von_mises", x.von_mises, "Pa", "equivalent stress");
-  v("at", x.at, "m", "place x, y, z");
+  v("at", x.at, "m", "position x, y, z");
   v("principal", x.principal.values, "Pa", "principal stresses, descending");
   v("first_direction", x.principal.first, "1", "unit vector of the first");
-  v("disagreement", x.disagreement, "1", "of neighbouring cells, relative");
-  v("beside", x.nearby, "", "support or interface that holds the surface rigid there; empty: none");
+  v("disagreement", x.disagreement, "1", "disagreement of neighbouring elements, relative");
+  v("beside", x.nearby, "", "support or interface that makes the surface rigid there; empty: none");
 }
 
 /// The stresses at one instant.
@@ -50,10 +50,10 @@ struct StressAt
 template <class Visitor>
 void describe(Visitor &v, const StressAt &x)
 {
-  v("label", x.label, "", "why this instant");
+  v("label", x.label, "", "reason for this instant");
   v("t", x.t, "s", "instant");
   v.maybe(x.peak.has_value(), "largest", x.peak, "", "largest stress away from rigid surfaces");
-  v.maybe(x.beside_rigid.has_value(), "beside_rigid", x.beside_rigid, "", "largest stress beside them");
+  v.maybe(x.beside_rigid.has_value(), "beside_rigid", x.beside_rigid, "", "largest stress next to rigid surfaces");
 }
 
 /// Stresses at the skin of the frame during a run.
@@ -70,8 +70,8 @@ template <class Visitor>
 void describe(Visitor &v, const StressResult &x)
 {
   v("points", x.points.size(), "", "points of the skin");
-  v("states", x.n_states, "", "states among which the largest stress was looked for");
-  v("step", x.step, "s", "between these states");
+  v("states", x.n_states, "", "number of states searched for the largest stress");
+  v("step", x.step, "s", "interval of these states");
   v("instants", x.instants, "", "in the order of time");
 }
 

@@ -22,17 +22,17 @@ const BodyType &body_type(coupling::BodyKind kind)
 
 Key mass_key()
 {
-  return key::number("mass", kind::mass, "of the body; with `cad` spread evenly, in place of `material`")
+  return key::number("mass", kind::mass, "mass of the body; with `cad` distributed uniformly, instead of `material`")
       .above_zero()
-      .by_default("demanded; with `cad` by its density")
+      .by_default("required; with `cad` from the density")
       .unless("cad")
       .into(&BodyRequest::mass);
 }
 
 Key centre_key()
 {
-  return key::vector("position", kind::length, "its centre of mass")
-      .by_default("demanded; with `cad` that of the shape")
+  return key::vector("position", kind::length, "centre of mass")
+      .by_default("required; with `cad` that of the shape")
       .unless("cad")
       .into(&BodyRequest::position);
 }
@@ -55,7 +55,7 @@ Key inertia_key(const std::string &about)
 {
   return key::number("inertia", kind::inertia, about)
       .above_zero()
-      .by_default("demanded; with `cad` that of the shape")
+      .by_default("required; with `cad` that of the shape")
       .unless("cad")
       .into(&BodyRequest::inertia);
 }

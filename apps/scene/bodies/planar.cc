@@ -7,10 +7,10 @@ namespace gestell::apps
 BodyType planar_type()
 {
   return {
-      "planar", "A body that moves in a plane and turns about its normal by any angle.",
-      joined({{key::direction("normal", "across its plane; the angle is positive about it").into(&BodyRequest::axis),
-               mass_key(), inertia_key("about its centre of mass, about the normal"), centre_key(), drawn_size(),
-               drawn_radius("a plate with a rim")},
+      "planar", "Body that moves in a plane and rotates about its normal through any angle.",
+      joined({{key::direction("normal", "normal of the plane; the angle is positive about it").into(&BodyRequest::axis),
+               mass_key(), inertia_key("moment of inertia about the centre of mass and the normal"), centre_key(),
+               drawn_size(), drawn_radius("a plate with a rim")},
               part_keys()}),
       coupling::BodyKind::planar, [](coupling::MachineModel &machine, const BodyRequest &body) {
         machine.add_planar(body.name, body.axis, body.mass, body.inertia, body.position);

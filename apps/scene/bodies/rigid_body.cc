@@ -7,15 +7,14 @@ namespace gestell::apps
 
 BodyType rigid_body_type()
 {
-  const Key tensor =
-      key::vector("inertia", kind::inertia,
-                  "about its centre of mass, moments `[Jx, Jy, Jz]` about the global axes in the position the scene "
-                  "describes, or the tensor `[[Jxx, Jxy, Jxz], ...]`; a body has thickness: no moment reaches the "
-                  "sum of the others")
-          .also({Key::Form::matrix})
-          .by_default("demanded; with `cad` that of the shape");
+  const Key tensor = key::vector("inertia", kind::inertia,
+                                 "inertia about the centre of mass: moments `[Jx, Jy, Jz]` about the global axes in "
+                                 "the reference configuration, or the tensor `[[Jxx, Jxy, Jxz], ...]`. Each principal "
+                                 "moment must be less than the sum of the other two")
+                         .also({Key::Form::matrix})
+                         .by_default("required; with `cad` that of the shape");
   return {"rigid",
-          "A body that moves and turns freely in space.",
+          "Rigid body with six DOFs, free in space.",
           joined({{mass_key(), tensor, principal_axes_key(), centre_key(), drawn_size(), drawn_radius("a sphere")},
                   part_keys()}),
           coupling::BodyKind::rigid,

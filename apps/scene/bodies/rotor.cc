@@ -9,17 +9,16 @@ namespace
 
 std::vector<Key> unbalance_keys()
 {
-  return {
-      key::number("unbalance", kind::unbalance, "mass times eccentricity of its centre of mass")
-          .from_zero()
-          .by_default("none")
-          .into(&UnbalanceRequest::amount),
-      key::number("unbalance_phase", kind::angle,
-                  "where the centre of mass lies at zero angle, in the positive sense of turning from the first global "
-                  "axis across `axis`")
-          .by_default(&UnbalanceRequest::phase),
-      key::vector("unbalance_position", kind::length, "the point of its axis that the unbalance is at")
-          .by_default("`position`, or where its carrier is if there is none")};
+  return {key::number("unbalance", kind::unbalance, "mass times eccentricity of the centre of mass")
+              .from_zero()
+              .by_default("none")
+              .into(&UnbalanceRequest::amount),
+          key::number("unbalance_phase", kind::angle,
+                      "direction of the centre of mass at angle zero, measured in the positive sense from the first "
+                      "global axis perpendicular to `axis`")
+              .by_default(&UnbalanceRequest::phase),
+          key::vector("unbalance_position", kind::length, "point of the axis at which the unbalance acts")
+              .by_default("`position`, else the position of its carrier")};
 }
 
 /// @throws the error of the table for keys without an unbalance, and for an eccentric mass with too much inertia
@@ -60,26 +59,28 @@ void read_rotor(const SceneTable &table, BodyRequest &body)
 
 BodyType rotor_type()
 {
-  return {"rotor",
-          "One angle about an axis.",
-          joined({{key::direction("axis", "about which it turns").into(&BodyRequest::axis),
-                   key::named("on", "what carries it: `\"frame.NAME\"`, a body or `\"ground\"`").by_default("ground"),
-                   inertia_key("about its axis"),
-                   key::number("mass", kind::mass, "at the carrier; with `cad` spread evenly, in place of `material`")
-                       .from_zero()
-                       .by_default(&BodyRequest::mass),
-                   key::vector("position", kind::length,
-                               "where it is drawn, at zero displacement; on the ground it turns about it")
-                       .by_default("[0, 0, 0]; with `cad` the centre of mass")
-                       .into(&BodyRequest::position),
-                   drawn_radius("a disc")},
-                  unbalance_keys(),
-                  part_keys()}),
-          coupling::BodyKind::rotor,
-          [](coupling::MachineModel &machine, const BodyRequest &body)
-          { machine.add_rotor(body.name, body.axis, body.inertia, body.mass, body.carrier); },
-          read_rotor,
-          "on"};
+  return {
+      "rotor",
+      "Body that rotates about an axis: one angle.",
+      joined({{key::direction("axis", "axis of rotation").into(&BodyRequest::axis),
+               key::named("on", "carrier: `\"frame.NAME\"`, a body or `\"ground\"`").by_default("ground"),
+               inertia_key("moment of inertia about the axis"),
+               key::number("mass", kind::mass,
+                           "mass, which acts on the carrier; with `cad` distributed uniformly, instead of `material`")
+                   .from_zero()
+                   .by_default(&BodyRequest::mass),
+               key::vector("position", kind::length,
+                           "position in pictures, at zero displacement; on the ground the axis passes through it")
+                   .by_default("[0, 0, 0]; with `cad` the centre of mass")
+                   .into(&BodyRequest::position),
+               drawn_radius("a disc")},
+              unbalance_keys(),
+              part_keys()}),
+      coupling::BodyKind::rotor,
+      [](coupling::MachineModel &machine, const BodyRequest &body)
+      { machine.add_rotor(body.name, body.axis, body.inertia, body.mass, body.carrier); },
+      read_rotor,
+      "on"};
 }
 
 } // namespace gestell::apps

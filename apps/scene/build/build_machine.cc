@@ -167,10 +167,9 @@ void refuse_carried_round(const coupling::MachineModel &machine, const BodyReque
   for (const coupling::Body &body : machine.bodies())
     if (body.name == rotor.carrier && body.kind != coupling::BodyKind::slider &&
         body.kind != coupling::BodyKind::point && dot(cross(arm, body.axis), cross(arm, body.axis)) > 0.)
-      throw std::invalid_argument(
-          "the unbalance lies beside \"" + rotor.carrier +
-          "\", which turns by any angle and would "
-          "carry it round; put unbalance_position on its axis, or the rotor on a body of its own");
+      throw std::invalid_argument("the unbalance lies beside \"" + rotor.carrier +
+                                  "\", which rotates through large angles and would carry it round; put "
+                                  "unbalance_position on its axis, or the rotor on a body of its own");
 }
 
 /// Attaches the unbalance of a rotor as an element "NAME unbalance": along e_1, the first global axis across the

@@ -55,7 +55,8 @@ void check_carrier(const coupling::MachineModel &machine, const BodyRequest &bod
   if (!off && !turns_axis)
     return;
   throw std::invalid_argument((slider ? "slider \"" : "rotor \"") + body.name + "\": its " +
-                              (slider ? "guide" : "carrier") + " \"" + carrier->name + "\" turns by any angle, which " +
+                              (slider ? "guide" : "carrier") + " \"" + carrier->name +
+                              "\" rotates through large angles, which " +
                               (turns_axis ? "its axis" : "its place beside the axis of \"" + carrier->name + "\"") +
                               " would not follow; make it a planar body, held by a " +
                               (slider ? "prismatic joint" : "revolute joint at its position"));

@@ -20,7 +20,7 @@ std::string rayleigh_text(double alpha, double beta)
 {
   std::ostringstream text;
   text.precision(4);
-  text << "after Rayleigh, B = alpha M + beta C of the material with alpha = " << alpha << " 1/s, beta = " << beta
+  text << "Rayleigh damping, B = alpha M + beta C of the material with alpha = " << alpha << " 1/s, beta = " << beta
        << " s";
   return text.str();
 }

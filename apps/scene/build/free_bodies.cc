@@ -150,7 +150,7 @@ std::string free_frame(const Scene &scene, const coupling::MachineModel &machine
   for (const std::string &name : frame->facts.free_motions)
     ways += (ways.empty() ? "" : ", ") + name;
   const bool falls = scene.gravity != Vector3{};
-  return scene.frame.place + ": nothing holds the frame as a whole at the start, so that it " +
+  return scene.frame.place + ": no support constrains the frame as a whole at the start, so that it " +
          (falls ? "falls under its weight" : "moves away under any load") + " " +
          (ways.empty() ? "" : "(without elements it is free in " + ways + ")") +
          "; give it a support ([frame.support.NAME]) or elements to the ground";

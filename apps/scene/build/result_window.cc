@@ -114,7 +114,7 @@ void check_window(const Scene &scene, const coupling::Machine &machine, const co
   run.warn("result-window", "output.from",
            scene.run.place + ": output.from = \"last period\" takes a revolution at the speed that \"" +
                slowest.rotor->name + "\" starts with, " + short_text(slowest.speed) + " rad/s, but its mean speed is " +
-               short_text(mean) + " rad/s, so that the window is no revolution; " + give_time);
+               short_text(mean) + " rad/s, so that the window is not a revolution; " + give_time);
 }
 
 } // namespace gestell::apps

@@ -47,7 +47,7 @@ void judge_play(const Scene &scene, const ElementRequest &element, const std::st
     warnings.push_back({key_place(scene, element.name, key),
                         "is " + size_text(play) + "; expected: at most " + size_text(most * size) + ", " +
                             short_text(most) + " of " + of_what + " (" + size_text(size) +
-                            "), for more is no play; check the unit",
+                            "), more is not a clearance; check the unit",
                         std::abs(play) / (most * size)});
 }
 

@@ -12,7 +12,7 @@ namespace gestell::apps
 {
 
 // Values that are valid but implausible for machines, typically because of a missing or wrong unit: they are compared
-// with the size and the masses of the machine itself.  Ranges with their reasons: docs/scene/magnitudes.md.
+// with the size and the masses of the machine itself.  Ranges with their reasons: docs/reference/scene/magnitudes.md.
 
 /// Diagonal [m] of the box around all positions in the scene; 0: it has no positions.
 double machine_size(const Scene &scene, const coupling::MachineModel &machine);

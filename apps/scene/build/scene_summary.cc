@@ -188,7 +188,7 @@ std::string coordinates_text(const Scene &scene, coupling::Machine &machine)
   const std::string of_bodies = std::to_string(machine.size() - n_frame) + " of the bodies";
   std::string       text;
   if (n_frame > 0)
-    text = std::to_string(n_frame) + (made ? " of the interfaces and those of the inside, " : " of the frame, ");
+    text = std::to_string(n_frame) + (made ? " of the interfaces and internal modes, " : " of the frame, ");
   text += of_bodies;
   if (n_rows == 0)
     return text;

@@ -48,7 +48,7 @@ std::string lost(const std::string &energy, double whole, double in_modes)
     return "";
   std::ostringstream text;
   text.precision(2);
-  text << "modal superposition: the modes kept carry " << 100. * std::max(0., in_modes / whole) << " % of the "
+  text << "modal superposition: the retained modes carry " << 100. * std::max(0., in_modes / whole) << " % of the "
        << energy << " energy of the given start, which is changed by the rest; give more modes";
   return text.str();
 }
@@ -125,15 +125,15 @@ std::string keep_stable_step(double largest, double decay, RunRequest &run)
     const double     steps          = (run.options.end - run.options.begin) / method.step;
     constexpr double many_steps     = 1e7; // minutes of steps even of small machines: no wish, but stiff modes
     if (steps > many_steps)
-      text << "central differences take " << steps << " steps of " << method.step << " s, as the fastest motion of the "
-           << "modes kept asks for; keep fewer modes, or take method = \"exact\"";
+      text << "central differences take " << steps << " steps of " << method.step << " s, as the highest retained "
+           << "mode requires; retain fewer modes, or use method = \"exact\"";
     return text.str();
   }
   constexpr double kept_off_limit = 0.95; // share of 2 / omega_max, at which explicit steps lose their stability
   if (method.step > kept_off_limit * largest)
   {
     text << "run.step is " << method.step << " s, but central differences are stable up to 2 / omega_max = " << largest
-         << " s of the modes kept; " << kept_off_limit * largest << " s is taken";
+         << " s of the retained modes; " << kept_off_limit * largest << " s is taken";
     method.step = kept_off_limit * largest;
   }
   else if (method.step > decay)

@@ -13,7 +13,8 @@ std::vector<Key> kloss_keys()
               .above_zero()
               .into(&Motor::breakdown_torque),
           key::number("breakdown_slip", kind::number, "slip at that torque").as_share().into(&Motor::breakdown_slip),
-          key::number("synchronous_speed", kind::angular_speed, "of the motor; negative: it runs backwards")
+          key::number("synchronous_speed", kind::angular_speed,
+                      "synchronous speed of the motor; negative: it runs in reverse")
               .into(&Motor::synchronous_speed),
           key::number("ratio", kind::number, "motor speed / shaft speed").above_zero().by_default(&Motor::ratio)};
 }
@@ -21,7 +22,7 @@ std::vector<Key> kloss_keys()
 ElementType asynchronous_motor_type()
 {
   return {"asynchronous motor",
-          "Stationary torque over slip, after Kloss.",
+          "Asynchronous motor with the stationary torque-slip curve of Kloss.",
           "`torque`, `power`, `slip`",
           joined({shaft_keys(), kloss_keys()}),
           read_law<mechanism::KlossMotor, read_shaft>,

@@ -123,40 +123,42 @@ void read_chain(const SceneTable &table, const Names &names, Scene &scene)
 
 std::vector<Key> strand_keys()
 {
-  return {key::number("stiffness", kind::stiffness, "of one strand").above_zero().by_default("`rigidity`"),
+  return {key::number("stiffness", kind::stiffness, "stiffness of one strand").above_zero().by_default("`rigidity`"),
           key::number("rigidity", kind::force,
-                      "E A: a strand has the stiffness E A/l, l its free length in the initial configuration")
+                      "axial rigidity E A: a strand of free length l (initial configuration) has the stiffness E A/l")
               .above_zero()
               .by_default("`stiffness`"),
-          key::number("damping", kind::damping, "of one strand while it is taut").from_zero().by_default(0.)};
+          key::number("damping", kind::damping, "damping of a taut strand").from_zero().by_default(0.)};
 }
 
 constexpr const char *loop_signals =
-    "`left_force`, `right_force` of the strands; `hub_force` on either shaft, the size of their sum as vectors";
+    "`left_force`, `right_force` of the strands; `hub_force` on either shaft, the magnitude of their vector sum";
 
 } // namespace
 
 ElementType belt_type()
 {
-  return {"belt",
-          "A belt around two pulleys without slip: each strand is a spring that only pulls, from tangent point to "
-          "tangent point; events `left_slack`, `left_taut`, and with damping `left_relaxed` at its free length, the "
-          "same on the right.",
-          loop_signals,
-          joined({wheel_keys("pulley"),
-                  {key::number("radius_from", kind::length, "of the pulley on `from`, to the neutral line of the belt")
-                       .above_zero(),
-                   key::number("radius_to", kind::length, "the same on `to`").above_zero(),
-                   key::truth("crossed", false, "the strands cross, the pulleys turn in opposite senses")},
-                  strand_keys(),
-                  {key::number("pretension", kind::force, "pull of either strand in the initial configuration")
-                       .from_zero()
-                       .by_default("by `length`"),
-                   key::number("length", kind::length, "of the belt without force; longer than its way: it is slack")
-                       .above_zero()
-                       .by_default("by `pretension`")}}),
-          read_belt,
-          {R"toml(from        = "flywheel"
+  return {
+      "belt",
+      "Belt around two pulleys, without slip. Each strand is a spring between its tangent points that only pulls. "
+      "Events: `left_slack`, `left_taut`, with damping also `left_relaxed` at the free length; the same for `right`.",
+      loop_signals,
+      joined(
+          {wheel_keys("pulley"),
+           {key::number("radius_from", kind::length, "radius of the pulley on `from`, to the neutral line of the belt")
+                .above_zero(),
+            key::number("radius_to", kind::length, "radius of the pulley on `to`").above_zero(),
+            key::truth("crossed", false, "crossed strands: the pulleys turn in opposite senses")},
+           strand_keys(),
+           {key::number("pretension", kind::force, "tension of each strand in the initial configuration")
+                .from_zero()
+                .by_default("by `length`"),
+            key::number("length", kind::length,
+                        "length of the unloaded belt; if longer than its path, the belt is slack")
+                .above_zero()
+                .by_default("by `pretension`")}}),
+      read_belt,
+      {R"toml(from        = "flywheel"
 to          = "crank"
 at_from     = [0, 0, 0]
 at_to       = ["0.6 m", 0, 0]
@@ -167,7 +169,7 @@ rigidity    = "120 kN"
 damping     = "20 N s/m"
 pretension  = "400 N"
 )toml",
-           R"toml(from        = "flywheel"
+       R"toml(from        = "flywheel"
 to          = "crank"
 at_from     = [0, 0, 0]
 at_to       = ["0.6 m", 0, 0]
@@ -183,18 +185,17 @@ length      = "1.93 m"
 ElementType chain_type()
 {
   return {"chain",
-          "A chain around two sprockets: as a belt, by default without pretension, with the mean radius of its "
-          "sprockets.",
+          "Chain around two sprockets: as a belt with the mean radii of the sprockets, by default without pretension.",
           loop_signals,
           joined({wheel_keys("sprocket"),
-                  {key::number("pitch", kind::length, "of the chain").above_zero(),
-                   key::plain("teeth_from", Key::Form::whole, "of the sprocket on `from`, 5 or more"),
-                   key::plain("teeth_to", Key::Form::whole, "of the sprocket on `to`, 5 or more")},
+                  {key::number("pitch", kind::length, "pitch of the chain").above_zero(),
+                   key::plain("teeth_from", Key::Form::whole, "number of teeth of the sprocket on `from`, 5 or more"),
+                   key::plain("teeth_to", Key::Form::whole, "number of teeth of the sprocket on `to`, 5 or more")},
                   strand_keys(),
-                  {key::number("pretension", kind::force, "pull of either strand in the initial configuration")
+                  {key::number("pretension", kind::force, "tension of each strand in the initial configuration")
                        .from_zero()
                        .by_default("0, or by `links`"),
-                   key::plain("links", Key::Form::whole, "number of links, in place of `pretension`").by_default("")}}),
+                   key::plain("links", Key::Form::whole, "number of links, instead of `pretension`").by_default("")}}),
           read_chain,
           {R"toml(from       = "flywheel"
 to         = "crank"

@@ -24,21 +24,21 @@ void read_gap(const SceneTable &table, const Names &names, Scene &scene)
 ElementType clearance_type()
 {
   return {"clearance",
-          "Play to either side, and contact beyond it.",
+          "Play in both directions, with contact at its ends.",
           "`force`, `displacement`",
           joined({motion_keys(),
                   contact_keys(),
-                  {key::number("gap", kind::length, "half of the total play")
+                  {key::number("gap", kind::length, "half the total play")
                        .on_angle(kind::angle)
                        .from_zero()
                        .into(&Clearance::Parameters::gap)}}),
           read_gap,
-          {R"toml(from      = "flywheel"               # claws with 0.2 degrees of play to either side
+          {R"toml(from      = "flywheel"               # claws with 0.2 degrees of play in both directions
 to        = "crank"
 gap       = "0.2 deg"
 stiffness = "1e6 N m/rad"
 )toml",
-           R"toml(from         = "spindle"               # axial play of 50 um to either side
+           R"toml(from         = "spindle"               # axial play of 50 um in both directions
 direction    = [1, 0, 0]
 gap          = "50 um"
 stiffness    = "200 kN/mm"
@@ -50,14 +50,14 @@ impact_speed = "0.1 m/s"
 ElementType stop_type()
 {
   return {"stop",
-          "Contact on one side: closed where u > gap, or -u > gap below.",
+          "Contact on one side: closed if u > gap, with `side = \"below\"` if -u > gap.",
           "`force`, `displacement`",
           joined({motion_keys(),
                   contact_keys(),
-                  {key::number("gap", kind::length, "where it closes, may be negative")
+                  {key::number("gap", kind::length, "u at which the stop closes; may be negative")
                        .on_angle(kind::angle)
                        .by_default(&Clearance::Parameters::gap),
-                   key::choice("side", {"above", "below"}, true, "on which it stands")
+                   key::choice("side", {"above", "below"}, true, "side of the stop")
                        .into(&Clearance::Parameters::stops, {Clearance::Stops::above, Clearance::Stops::below})}}),
           read_gap,
           {R"toml(from      = "slide"

@@ -40,20 +40,27 @@ ElementType connecting_rod_type()
 {
   using Rod = mechanism::ConnectingRod::Parameters;
   return {"connecting rod",
-          "An elastic rod with play from a crank to a slider; angle 0 of the crank is top dead centre, the slider "
-          "furthest back.",
+          "Elastic connecting rod with play between crank and slider. At crank angle 0 (top dead centre) the slider is "
+          "fully retracted.",
           "`force` along the slider's axis, `rod_force` along the rod, compression positive; `side_force`, "
           "`compression`, `compression_rate`",
-          {key::named("from", "rotor with the crank"), key::named("to", "slider, at right angles to the rotor's axis"),
-           key::number("crank_radius", kind::length, "of the crank pin").above_zero().into(&Rod::crank_radius),
-           key::number("length", kind::length, "of the rod").above_zero().into(&Rod::length),
-           key::number("stiffness", kind::stiffness, "of the rod along itself").above_zero().into(&Rod::stiffness),
-           key::number("damping", kind::damping, "of the closed chain").from_zero().by_default(&Rod::damping),
-           key::number("closing_length", kind::length, "over which the damping fades in")
+          {key::named("from", "rotor that is the crank"),
+           key::named("to", "slider, perpendicular to the axis of the rotor"),
+           key::number("crank_radius", kind::length, "radius of the crank pin circle")
+               .above_zero()
+               .into(&Rod::crank_radius),
+           key::number("length", kind::length, "length of the rod").above_zero().into(&Rod::length),
+           key::number("stiffness", kind::stiffness, "axial stiffness of the rod").above_zero().into(&Rod::stiffness),
+           key::number("damping", kind::damping, "damping while rod, pins and play are in contact")
+               .from_zero()
+               .by_default(&Rod::damping),
+           key::number("closing_length", kind::length, "compression over which this damping builds up")
                .above_zero()
                .by_default(&Rod::closing_length),
            key::number("clearance", kind::length, "total play").from_zero().by_default(&Rod::clearance),
-           key::number("oil_damping", kind::damping, "which acts always").from_zero().by_default(&Rod::oil_damping)},
+           key::number("oil_damping", kind::damping, "damping of the oil film, which always acts")
+               .from_zero()
+               .by_default(&Rod::oil_damping)},
           read_connecting_rod,
           {R"toml(from         = "crank"
 to           = "slide"

@@ -46,7 +46,7 @@ void read_contact_point(const SceneTable &table, const Names &names, Scene &scen
 {
   for (const char *key : {"at_from", "at_to"})
     if (table.has(key))
-      throw table.error(key, "is no key of a contact: the point of `from` is `at`, a point of the plane `through`");
+      throw table.error(key, "is not a key of a contact: the point of `from` is `at`, a point of the plane `through`");
   const PlaceRequest point = names.place(table, "from");
   PlaceRequest       plane = names.place(table, "to", "through", "ground");
   check_two_bodies(table, point, plane);
@@ -54,7 +54,7 @@ void read_contact_point(const SceneTable &table, const Names &names, Scene &scen
   if (!plane.at)
     plane.at = point.at;
   if (!plane.at)
-    throw table.error("needs 'through', a point of the plane in the position the scene describes");
+    throw table.error("needs 'through', a point of the plane in the reference configuration");
   PointContact::Parameters contact{read_contact(table, false), read_sliding_friction(table)};
   contact.normal.stops = Clearance::Stops::below;
   add_point(scene, table, table.name(), point_on_plane(plane, point, normal), contact);
@@ -66,7 +66,7 @@ void read_guide_with_play(const SceneTable &table, const Names &names, Scene &sc
   const PlaceRequest guide{names.marker(table, "from"), {}}, slide = names.place(table, "to");
   check_two_bodies(table, guide, slide);
   if (!slide.at)
-    throw table.error("needs 'at', the middle of the slide in the position the scene describes");
+    throw table.error("needs 'at', the centre of the slide in the reference configuration");
   const Vector3 axis = table.direction("axis"), normal = table.direction("normal");
   if (std::abs(axis[0] * normal[0] + axis[1] * normal[1] + axis[2] * normal[2]) > 1e-9)
     throw table.error("normal", "must be at right angles to 'axis': the play lies across the guide");
@@ -84,26 +84,28 @@ void read_guide_with_play(const SceneTable &table, const Names &names, Scene &sc
 
 ElementType contact_type()
 {
-  return {"contact",
-          "A point of a body on a plane that another body carries; located events `contact`, `separation`.",
-          "`normal_force`, `friction_force`, `distance`, `sliding_speed`",
-          joined({{key::named("from", "body with the point"),
-                   key::vector("at", kind::length, "the point, as described").by_default("the body's own point"),
-                   key::named("to", "what carries the plane").by_default("ground"),
-                   key::direction("normal", "out of the plane"),
-                   key::vector("through", kind::length, "a point of the plane").by_default("`at`"),
-                   key::vector("at_from", kind::length, "refused: the point is `at`").by_default(""),
-                   key::vector("at_to", kind::length, "refused: the plane goes `through` its point").by_default("")},
-                  contact_keys(),
-                  {sliding_friction_key()}}),
-          read_contact_point,
-          {R"toml(from      = "lance"
+  return {
+      "contact",
+      "Contact of a point of a body with a plane on another body. Located events: `contact`, `separation`.",
+      "`normal_force`, `friction_force`, `distance`, `sliding_speed`",
+      joined({{key::named("from", "body with the contact point"),
+               key::vector("at", kind::length, "contact point in the reference configuration")
+                   .by_default("reference point of the body"),
+               key::named("to", "body or interface that carries the plane").by_default("ground"),
+               key::direction("normal", "normal of the plane, pointing outwards"),
+               key::vector("through", kind::length, "point of the plane").by_default("`at`"),
+               key::vector("at_from", kind::length, "not accepted: the contact point is `at`").by_default(""),
+               key::vector("at_to", kind::length, "not accepted: the point of the plane is `through`").by_default("")},
+              contact_keys(),
+              {sliding_friction_key()}}),
+      read_contact_point,
+      {R"toml(from      = "lance"
 at        = ["0.9 m", 0, 0]
 normal    = [0, 0, 1]
 stiffness = "2 kN/mm"
 friction  = 0.2
 )toml",
-           R"toml(from      = "lance"
+       R"toml(from      = "lance"
 at        = ["0.9 m", 0, 0]
 normal    = [0, 0, 1]
 stiffness = "2 kN/mm"
@@ -115,14 +117,15 @@ ElementType guide_with_play_type()
 {
   return {
       "guide with play",
-      "A slide between two parallel planes of its guide: a contact at each of its four corners.",
-      "of `NAME.rear`, `NAME.front` (the ends against and along `axis`): as of a contact, `normal_force` along "
+      "Slide between two parallel planes of its guide, with a contact at each of its four corners.",
+      "those of a contact for `NAME.rear` and `NAME.front` (rear and front end along `axis`), `normal_force` along "
       "`normal`",
       joined({{key::named("from", "guide"), key::named("to", "slide"),
-               key::vector("at", kind::length, "middle of the slide, as described").by_default("place `to`"),
-               key::direction("axis", "along the guide"), key::direction("normal", "across it"),
-               key::number("gap", kind::length, "half of the total play").from_zero().into(&Clearance::Parameters::gap),
-               key::number("length", kind::length, "of the slide").above_zero()},
+               key::vector("at", kind::length, "centre of the slide in the reference configuration")
+                   .by_default("marker `to`"),
+               key::direction("axis", "direction of the guide"), key::direction("normal", "normal of the guide planes"),
+               key::number("gap", kind::length, "half the total play").from_zero().into(&Clearance::Parameters::gap),
+               key::number("length", kind::length, "length of the slide").above_zero()},
               contact_keys(),
               {sliding_friction_key()}}),
       read_guide_with_play,

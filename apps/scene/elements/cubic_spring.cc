@@ -10,13 +10,13 @@ ElementType cubic_spring_type()
 {
   using Spring = mechanism::CubicSpring::Parameters;
   return {"cubic spring",
-          "F = c u + c3 u^3 acts on `to` along the direction and on `from` against it.",
+          "Force F = c u + c3 u^3, acting on `to` along the direction and on `from` in the opposite direction.",
           "`force`, `displacement`",
           joined({motion_keys(),
-                  {key::number("cubic", kind::cubic_stiffness, "c3")
+                  {key::number("cubic", kind::cubic_stiffness, "coefficient c3")
                        .on_angle(kind::torsional_cubic_stiffness)
                        .into(&Spring::cubic),
-                   key::number("stiffness", kind::stiffness, "c")
+                   key::number("stiffness", kind::stiffness, "coefficient c")
                        .on_angle(kind::torsional_stiffness)
                        .by_default(&Spring::stiffness)}}),
           read_law<mechanism::CubicSpring>,

@@ -11,15 +11,17 @@ ElementType cutting_force_type()
   using Cut = mechanism::CuttingForce::Parameters;
   return {
       "cutting force",
-      "The material resists while the tool goes in, with its largest force at one penetration.",
+      "Resistance of the material while the tool penetrates, with its maximum at a given penetration.",
       "`force`, `penetration`",
       joined({motion_keys(),
               {key::number("peak_force", kind::force, "largest force").from_zero().into(&Cut::peak_force),
-               key::number("peak_penetration", kind::length, "at which it is largest")
+               key::number("peak_penetration", kind::length, "penetration at the largest force")
                    .above_zero()
                    .into(&Cut::peak_penetration),
-               key::number("contact_at", kind::length, "u at which the tool touches").by_default(&Cut::contact_at),
-               key::number("speed", kind::speed, "below which the force fades").above_zero().by_default(&Cut::speed)}}),
+               key::number("contact_at", kind::length, "u at first contact of the tool").by_default(&Cut::contact_at),
+               key::number("speed", kind::speed, "speed below which the force fades")
+                   .above_zero()
+                   .by_default(&Cut::speed)}}),
       read_law<mechanism::CuttingForce, read_displacement>,
       {R"toml(from             = "slide"
 peak_force       = "12 kN"

@@ -11,17 +11,19 @@ ElementType drawing_force_type()
   using Sheet = mechanism::DrawingForce::Parameters;
   return {
       "drawing force",
-      "The sheet rises to a constant force and flows; after going back it resists only beyond the path drawn so far.",
+      "Deep drawing: the force rises to a constant value while the sheet flows. After a return stroke it acts only "
+      "beyond the depth drawn so far.",
       "`force`, `path`, `drawn`",
-      joined({motion_keys(),
-              {key::number("force", kind::force, "while the sheet flows").above_zero().into(&Sheet::force),
-               key::number("stiffness", kind::stiffness, "of its rise and of unloading")
-                   .above_zero()
-                   .into(&Sheet::stiffness),
-               key::number("contact_at", kind::length, "u at which the punch touches").by_default(&Sheet::contact_at),
-               key::number("depth", kind::length, "at which the part is drawn through")
-                   .above_zero()
-                   .by_default(&Sheet::depth)}}),
+      joined(
+          {motion_keys(),
+           {key::number("force", kind::force, "force while the sheet flows").above_zero().into(&Sheet::force),
+            key::number("stiffness", kind::stiffness, "stiffness of the rise and of unloading")
+                .above_zero()
+                .into(&Sheet::stiffness),
+            key::number("contact_at", kind::length, "u at first contact of the punch").by_default(&Sheet::contact_at),
+            key::number("depth", kind::length, "drawing depth at which the part is finished")
+                .above_zero()
+                .by_default(&Sheet::depth)}}),
       read_law<mechanism::DrawingForce, read_displacement>,
       {R"toml(from       = "slide"                 # rises over 0.4 mm, then 200 kN down to 60 mm
 force      = "200 kN"

@@ -29,14 +29,15 @@ void read_dynamic_motor(const SceneTable &table, const Names &names, Scene &scen
 ElementType dynamic_motor_type()
 {
   return {"dynamic motor",
-          "An asynchronous motor whose torque follows the stationary one; method bdf only.",
+          "Asynchronous motor whose torque follows the stationary torque with a time constant. Method `bdf` only.",
           "`torque`, `power`, `slip`, `stationary_torque`",
           joined({shaft_keys(),
                   kloss_keys(),
-                  {key::number("time_constant", kind::time, "with which the torque follows")
+                  {key::number("time_constant", kind::time, "time constant of the torque")
                        .above_zero()
                        .by_default("from `mains_frequency`"),
-                   key::number("mains_frequency", kind::frequency, "f of the time constant 1/(2 pi f breakdown_slip)")
+                   key::number("mains_frequency", kind::frequency,
+                               "mains frequency f, for the time constant 1/(2 pi f breakdown_slip)")
                        .above_zero()
                        .by_default("from `time_constant`")}}),
           read_dynamic_motor,

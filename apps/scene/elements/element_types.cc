@@ -29,8 +29,8 @@ const std::vector<ElementType> &element_types()
 
 std::vector<Key> common_element_keys()
 {
-  return {key::choice("type", names_of(element_types()), false, "what it is"),
-          key::choice("initially", {"on", "off"}, true, "off: a switch turns it on")};
+  return {key::choice("type", names_of(element_types()), false, "type of the element"),
+          key::choice("initially", {"on", "off"}, true, "initial state; a switch can change it")};
 }
 
 void read_elements(const SceneTable &table, const Names &names, Scene &scene)

@@ -34,26 +34,27 @@ void read_force(const SceneTable &table, const Names &names, Scene &scene)
 
 ElementType force_type()
 {
-  return {"force",
-          "f = constant + sum of amplitude sin(2 pi frequency t + phase) acts on `from` along the direction and on "
-          "`to` against it.",
-          "`force` (or `torque`)",
-          joined({load_motion_keys(),
-                  {key::number("constant", kind::force, "part of the force")
-                       .on_angle(kind::torque)
-                       .by_default(&LoadRequest::constant),
-                   key::composed("harmonics", Key::Form::tables, kind::force,
-                                 {key::number("amplitude", kind::force, "of the harmonic").on_angle(kind::torque),
-                                  key::number("frequency", kind::frequency, "of the harmonic").above_zero(),
-                                  key::number("phase", kind::angle, "of the harmonic").by_default(0.)},
-                                 "parts that oscillate")
-                       .by_default("none")}}),
-          read_force,
-          {R"toml(from      = "slide"
+  return {
+      "force",
+      "Force f = constant + sum of amplitude sin(2 pi frequency t + phase), acting on `from` along the direction and "
+      "on `to` in the opposite direction.",
+      "`force` (or `torque`)",
+      joined({load_motion_keys(),
+              {key::number("constant", kind::force, "constant part of the force")
+                   .on_angle(kind::torque)
+                   .by_default(&LoadRequest::constant),
+               key::composed("harmonics", Key::Form::tables, kind::force,
+                             {key::number("amplitude", kind::force, "amplitude of the harmonic").on_angle(kind::torque),
+                              key::number("frequency", kind::frequency, "frequency of the harmonic").above_zero(),
+                              key::number("phase", kind::angle, "phase of the harmonic").by_default(0.)},
+                             "harmonic parts of the force")
+                   .by_default("none")}}),
+      read_force,
+      {R"toml(from      = "slide"
 constant  = "30 N"
 harmonics = [{ amplitude = "600 N", frequency = "4 Hz", phase = "30 deg" }]
 )toml",
-           R"toml(from       = "lance"                 # turns with the lance, and turns it
+       R"toml(from       = "lance"                 # turns with the lance, and turns it
 at_from    = ["0.9 m", 0, 0]
 direction  = [0, 0, 1]
 carried_by = "lance"

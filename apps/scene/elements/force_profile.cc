@@ -25,28 +25,29 @@ void read_force_profile(const SceneTable &table, const Names &names, Scene &scen
 
 ElementType force_profile_type()
 {
-  return {"force profile",
-          "A force over time acts on `from` along the direction and on `to` against it.",
-          "`force`, `power`",
-          joined({load_motion_keys(),
-                  {or_input(course_key("profile", level_profile(kind::force, kind::force.example),
-                                       "force: a level, ramps or a function of time"))
-                       .on_angle(kind::torque),
-                   key::number("initial", kind::force, "before the first ramp").on_angle(kind::torque).by_default(0.),
-                   waits_key()}}),
-          read_force_profile,
-          {R"toml(from    = "crank"                   # rises over 0.5 s + 0.1 s
+  return {
+      "force profile",
+      "Force over time, acting on `from` along the direction and on `to` in the opposite direction.",
+      "`force`, `power`",
+      joined({load_motion_keys(),
+              {or_input(course_key("profile", level_profile(kind::force, kind::force.example),
+                                   "force: a level, ramps or a function of time"))
+                   .on_angle(kind::torque),
+               key::number("initial", kind::force, "force before the first ramp").on_angle(kind::torque).by_default(0.),
+               waits_key()}}),
+      read_force_profile,
+      {R"toml(from    = "crank"                   # rises over 0.5 s + 0.1 s
 profile = [{ at = "0 s", to = "1 kN m", rate = "2 kN m/s", rate_of_rate = "20 kN m/s^2" }]
 )toml",
-           R"toml(from       = "lance"
+       R"toml(from       = "lance"
 direction  = [0, 0, 1]
 carried_by = "lance"
 profile    = { function = "3 N*t/s", period = "2 s", rise = "6 N" }
 )toml",
-           R"toml(from    = "slide"
+       R"toml(from    = "slide"
 profile = { table = [["0 s", 0], ["1 s", "3 N"], ["2 s", "12 N"]] }
 )toml",
-           R"toml(from    = "slide"
+       R"toml(from    = "slide"
 initial = "2 N"
 profile = { input = "push" }            # that an FMU or another program sets
 )toml"}};

@@ -27,16 +27,16 @@ void read_formula_force(const SceneTable &table, const Names &names, Scene &scen
 
 ElementType formula_force_type()
 {
-  return {
-      "formula force",
-      "A formula of the time t, the displacement or angle u and its rate v; its events are named after the function "
-      "with a kink, abs_1_rises, if_2_falls.",
-      "`force`, `displacement`, `rate`; on an angle `torque`, `angle`, `rate`",
-      joined({motion_keys(),
-              {key::formula("force", kind::force, "of t, u and v; +F acts on `from` along the direction")
-                   .on_angle(kind::torque)}}),
-      read_formula_force,
-      {R"toml(from  = "slide"
+  return {"formula force",
+          "Force as a formula of time t, displacement or angle u, and its rate v. Events are named after the functions "
+          "with kinks: `abs_1_rises`, `if_2_falls`.",
+          "`force`, `displacement`, `rate`; for an angle `torque`, `angle`, `rate`",
+          joined({motion_keys(),
+                  {key::formula("force", kind::force,
+                                "formula in t, u and v; a positive force acts on `from` along the direction")
+                       .on_angle(kind::torque)}}),
+          read_formula_force,
+          {R"toml(from  = "slide"
 force = "-200 N/mm*u - 5 N*tanh(v/(1 mm/s))"
 )toml"}};
 }

@@ -17,17 +17,18 @@ using mechanism::RegularisedFriction;
 template <class Friction>
 std::vector<Key> curve_keys()
 {
-  return {key::number("stribeck_speed", kind::speed, "over which the force falls from the static to the kinetic one")
-              .on_angle(kind::angular_speed)
-              .above_zero()
-              .by_default(&Friction::stribeck_speed),
-          key::number("stribeck_exponent", kind::number, "n of the fall exp(-(v/v_s)^n), 1 or 2")
-              .above_zero()
-              .by_default(&Friction::stribeck_exponent),
-          key::number("viscous", kind::damping, "of a damper beside it")
-              .on_angle(kind::torsional_damping)
-              .from_zero()
-              .by_default(&Friction::viscous)};
+  return {
+      key::number("stribeck_speed", kind::speed, "Stribeck speed v_s of the transition from static to kinetic friction")
+          .on_angle(kind::angular_speed)
+          .above_zero()
+          .by_default(&Friction::stribeck_speed),
+      key::number("stribeck_exponent", kind::number, "exponent n of the transition exp(-(v/v_s)^n), 1 or 2")
+          .above_zero()
+          .by_default(&Friction::stribeck_exponent),
+      key::number("viscous", kind::damping, "viscous damping, in addition")
+          .on_angle(kind::torsional_damping)
+          .from_zero()
+          .by_default(&Friction::viscous)};
 }
 
 Key force_key(const std::string &name, const std::string &meaning)
@@ -77,16 +78,17 @@ void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene
 /// Keys of brakes and clutches.
 static std::vector<Key> brake_keys()
 {
-  return joined({motion_keys(),
-                 {force_key("capacity", "while it slips").into(&CoulombFriction::Parameters::kinetic_force),
-                  force_key("static_capacity", "while it sticks")
-                      .same_as("capacity")
-                      .into(&CoulombFriction::Parameters::static_force),
-                  profile_key("engagement", level_profile(kind::number, "5"),
-                              "share of the capacity: a level or ramps from 0 to 1"),
-                  key::number("initial_engagement", kind::number, "before the first ramp").from_zero().by_default(0.),
-                  waits_key()},
-                 curve_keys<CoulombFriction::Parameters>()});
+  return joined(
+      {motion_keys(),
+       {force_key("capacity", "friction capacity while slipping").into(&CoulombFriction::Parameters::kinetic_force),
+        force_key("static_capacity", "friction limit while sticking")
+            .same_as("capacity")
+            .into(&CoulombFriction::Parameters::static_force),
+        profile_key("engagement", level_profile(kind::number, "5"),
+                    "share of the capacity: a level or ramps from 0 to 1"),
+        key::number("initial_engagement", kind::number, "engagement before the first ramp").from_zero().by_default(0.),
+        waits_key()},
+       curve_keys<CoulombFriction::Parameters>()});
 }
 
 /// Dry friction that is engaged over time, against the ground or another body.
@@ -118,15 +120,15 @@ ElementType friction_type()
 {
   using Friction = RegularisedFriction::Parameters;
   return {"friction",
-          "Friction that creeps below a speed instead of sticking.",
+          "Regularised friction: below `speed` it creeps instead of sticking.",
           "`force`, `rate`",
           joined({motion_keys(),
-                  {force_key("force", "while it slides").into(&Friction::force),
-                   key::number("speed", kind::speed, "at which it is 76 % developed")
+                  {force_key("force", "friction force while sliding").into(&Friction::force),
+                   key::number("speed", kind::speed, "speed at which 76 % of the friction is developed")
                        .on_angle(kind::angular_speed)
                        .above_zero()
                        .by_default(&Friction::speed),
-                   force_key("static_force", "from which it falls; with `stribeck_speed`")
+                   force_key("static_force", "static friction force; with `stribeck_speed`")
                        .same_as("force")
                        .into(&Friction::static_force)},
                   curve_keys<Friction>()}),
@@ -140,23 +142,23 @@ ElementType dry_friction_type()
 {
   using Friction = CoulombFriction::Parameters;
   return {"dry friction",
-          "Friction that truly sticks, along or about a constant direction: meant for located events.",
+          "Coulomb friction with true sticking, along or about a constant direction; for located events.",
           "`force`, `rate`",
           joined({motion_keys(),
-                  {force_key("static_force", "while it sticks")
+                  {force_key("static_force", "friction limit while sticking")
                        .by_default("from `static`")
                        .unless("static")
                        .into(&Friction::static_force),
-                   force_key("kinetic_force", "while it slides")
+                   force_key("kinetic_force", "friction force while sliding")
                        .by_default("from `kinetic`")
                        .unless("kinetic")
                        .into(&Friction::kinetic_force),
-                   key::number("normal_force", kind::force, "by which coefficients are multiplied")
+                   key::number("normal_force", kind::force, "normal force, multiplied by the coefficients")
                        .from_zero()
                        .by_default("none"),
-                   key::number("static", kind::number, "coefficient while it sticks").from_zero().by_default(""),
-                   key::number("kinetic", kind::number, "coefficient while it slides").from_zero().by_default(""),
-                   key::number("speed", kind::speed, "of the partner, a belt")
+                   key::number("static", kind::number, "static friction coefficient").from_zero().by_default(""),
+                   key::number("kinetic", kind::number, "kinetic friction coefficient").from_zero().by_default(""),
+                   key::number("speed", kind::speed, "speed of the other surface, such as a belt")
                        .on_angle(kind::angular_speed)
                        .by_default(&Friction::belt_speed)},
                   curve_keys<Friction>()}),
@@ -178,11 +180,11 @@ kinetic      = 0.15
 ElementType brake_type()
 {
   return {"brake",
-          "Dry friction that is engaged over time, against the ground or another body; truly sticks.",
+          "Brake: Coulomb friction with true sticking against the ground or another body, engaged over time.",
           "`force`, `rate`",
           brake_keys(),
           read_brake,
-          {R"toml(from            = "crank"             # engaged within 50 ms at 3 s, let go at 5 s
+          {R"toml(from            = "crank"             # engaged within 50 ms at 3 s, released at 5 s
 capacity        = "800 N m"
 static_capacity = "1 kN m"
 engagement      = [{ at = "3 s", to = 1, rate = "20/s" }, { at = "5 s", to = 0 }]
@@ -192,7 +194,7 @@ engagement      = [{ at = "3 s", to = 1, rate = "20/s" }, { at = "5 s", to = 0 }
 ElementType clutch_type()
 {
   return {"clutch",
-          "A brake between two bodies; `to` is demanded.",
+          "Clutch: a brake between two bodies; `to` is required.",
           "`force`, `rate`",
           brake_keys(),
           read_clutch,

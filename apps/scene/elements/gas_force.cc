@@ -26,27 +26,28 @@ ElementType gas_force_type()
   using Gas = mechanism::GasForce::Parameters;
   return {
       "gas force",
-      "Gas behind a piston, polytropic; with valves that open at two pressures, or enclosed.",
+      "Polytropic gas force on a piston, with valves that open at two pressures, or enclosed.",
       "`force` along u, `pressure`, `volume`",
       joined({motion_keys(),
-              {key::number("area", kind::area, "of the piston").above_zero().into(&Gas::area),
-               key::number("clearance_volume", kind::volume, "left at the dead centre")
+              {key::number("area", kind::area, "area of the piston").above_zero().into(&Gas::area),
+               key::number("clearance_volume", kind::volume, "volume left at dead centre")
                    .above_zero()
                    .into(&Gas::clearance_volume),
-               key::number("dead_centre_at", kind::length, "u there").by_default(&Gas::dead_centre_at),
-               key::choice("side", {"above", "below"}, true, "the volume grows with u, or against it")
+               key::number("dead_centre_at", kind::length, "u at dead centre").by_default(&Gas::dead_centre_at),
+               key::choice("side", {"above", "below"}, true,
+                           "direction: the volume grows with u (above) or with -u (below)")
                    .into(&Gas::grows, {true, false}),
-               key::number("exponent", kind::number, "of the polytropic").above_zero().by_default(&Gas::exponent),
-               key::number("back_pressure", kind::pressure, "on the other side of the piston")
+               key::number("exponent", kind::number, "polytropic exponent").above_zero().by_default(&Gas::exponent),
+               key::number("back_pressure", kind::pressure, "pressure on the other side of the piston")
                    .from_zero()
                    .by_default(&Gas::back_pressure),
-               key::number("suction_pressure", kind::pressure, "at which the inlet opens")
+               key::number("suction_pressure", kind::pressure, "pressure at which the inlet opens")
                    .above_zero()
                    .by_default("no valves"),
-               key::number("delivery_pressure", kind::pressure, "at which the outlet opens")
+               key::number("delivery_pressure", kind::pressure, "pressure at which the outlet opens")
                    .above_zero()
                    .by_default("no valves"),
-               key::number("initial_pressure", kind::pressure, "at the start; demanded without valves")
+               key::number("initial_pressure", kind::pressure, "pressure at the start; required without valves")
                    .above_zero()
                    .same_as("suction_pressure")
                    .into(&Gas::initial_pressure)}}),

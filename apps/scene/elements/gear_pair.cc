@@ -78,42 +78,40 @@ void read_gear_pair(const SceneTable &table, const Names &names, Scene &scene)
 ElementType gear_pair_type()
 {
   using Mesh = GearPair::Parameters;
-  return {
-      "gear pair",
-      "Elastic teeth of two gears with backlash: each flank is a spring that only pushes, along its line of action; "
-      "events `left_contact`, `left_separation`, and with damping `left_relaxed` at its free length, the same on the "
-      "right.",
-      "`force` normal to the teeth, positive where it turns `to` positively about `axis`; its parts "
-      "`tangential_force`, `radial_force` (positive where it parts the gears, or moves the gear out of its ring), "
-      "`axial_force` on `to` along `axis`",
-      joined({wheel_keys("gear"),
-              {key::number("radius_from", kind::length, "pitch radius of the gear on `from`")
-                   .above_zero()
-                   .into(&Teeth::from),
-               key::number("radius_to", kind::length,
-                           "the same on `to`; negative: a ring with inner teeth. The distance of the centres is the "
-                           "sum of both, within 1e-4")
-                   .into(&Teeth::to),
-               key::number("pressure_angle", kind::angle, "normal to the teeth")
-                   .by_default("20 deg")
-                   .into(&Teeth::pressure_angle),
-               key::number("helix_angle", kind::angle,
-                           "on the pitch circle; positive: the gear on `from` is "
-                           "right-handed")
-                   .by_default(&Teeth::helix_angle),
-               key::number("stiffness", kind::stiffness, "of the mesh, normal to the teeth, mean over a pitch")
-                   .above_zero()
-                   .into(&Mesh::stiffness),
-               key::number("damping", kind::damping, "in the same direction, while they touch")
-                   .from_zero()
-                   .by_default(&Mesh::damping),
-               key::number("backlash", kind::length,
-                           "play between the flanks, normal to the teeth, in the initial configuration; "
-                           "each side has half of it")
-                   .from_zero()
-                   .by_default(0.)}}),
-      read_gear_pair,
-      {R"toml(from           = "flywheel"
+  return {"gear pair",
+          "Elastic mesh of two gears with backlash. Each flank is a spring along its line of action that only pushes. "
+          "Events: `left_contact`, `left_separation`, with damping also `left_relaxed` at the free length; the same "
+          "for `right`.",
+          "`force` normal to the teeth, positive if it turns `to` positively about `axis`; its components "
+          "`tangential_force`, `radial_force` (positive if it separates the gears, or pushes the gear out of its ring) "
+          "and `axial_force` on `to` along `axis`",
+          joined({wheel_keys("gear"),
+                  {key::number("radius_from", kind::length, "pitch radius of the gear on `from`")
+                       .above_zero()
+                       .into(&Teeth::from),
+                   key::number("radius_to", kind::length,
+                               "pitch radius of the gear on `to`; negative for an internal (ring) gear. The centre "
+                               "distance must equal the sum of both radii within 1e-4")
+                       .into(&Teeth::to),
+                   key::number("pressure_angle", kind::angle, "normal pressure angle")
+                       .by_default("20 deg")
+                       .into(&Teeth::pressure_angle),
+                   key::number("helix_angle", kind::angle,
+                               "helix angle on the pitch circle; positive if the gear on `from` is right-handed")
+                       .by_default(&Teeth::helix_angle),
+                   key::number("stiffness", kind::stiffness, "mesh stiffness normal to the teeth, mean over a pitch")
+                       .above_zero()
+                       .into(&Mesh::stiffness),
+                   key::number("damping", kind::damping, "damping in the same direction while the teeth touch")
+                       .from_zero()
+                       .by_default(&Mesh::damping),
+                   key::number(
+                       "backlash", kind::length,
+                       "play between the flanks, normal to the teeth, in the initial configuration; half on each side")
+                       .from_zero()
+                       .by_default(0.)}}),
+          read_gear_pair,
+          {R"toml(from           = "flywheel"
 to             = "crank"
 at_from        = [0, 0, 0]
 at_to          = ["0.6 m", 0, 0]

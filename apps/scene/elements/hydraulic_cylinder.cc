@@ -45,51 +45,60 @@ ElementType hydraulic_cylinder_type()
   using Cylinder = mechanism::HydraulicCylinder::Parameters;
   return {
       "hydraulic cylinder",
-      "Two oil columns between a piston and its barrel, fed by a flow or a valve; method bdf only. A static start "
-      "finds the pressures of closed columns. Nothing ends its stroke and pressures may fall below zero, of which you "
-      "are warned with the time: put a \"stop\" where the oil columns end, and give enough pressure.",
-      "`force` that drives u up, `pressure_a`, `pressure_b`, `flow` into A, `stroke`",
-      joined(
-          {motion_keys(),
-           {key::number("area_a", kind::area, "of the piston in chamber A, u growing as it is filled")
-                .above_zero()
-                .into(&Cylinder::area_a),
-            key::number("area_b", kind::area, "in chamber B").above_zero().same_as("area_a").into(&Cylinder::area_b),
-            key::number("volume_a", kind::volume, "of the oil in A where u = zero_at")
-                .above_zero()
-                .into(&Cylinder::volume_a),
-            key::number("volume_b", kind::volume, "of the oil in B there").above_zero().into(&Cylinder::volume_b),
-            key::number("zero_at", kind::length, "u to which volumes and pressures belong").by_default(&Cylinder::zero),
-            key::number("bulk_modulus", kind::pressure, "of the oil").above_zero().by_default(&Cylinder::bulk_modulus),
-            key::number("pressure_a", kind::pressure, "at zero_at").by_default(&Cylinder::pressure_a),
-            key::number("pressure_b", kind::pressure, "at zero_at").by_default(&Cylinder::pressure_b),
-            key::number("leakage", leakage, "past the piston, a flow by pressure")
-                .from_zero()
-                .by_default(&Cylinder::leakage),
-            profile_key("flow", level_profile(flow, flow.example),
-                        "into A, while B gives back what the piston displaces: a level or ramps")
-                .by_default("`valve`"),
-            profile_key("valve", level_profile(kind::number, "10"), "opening from -1 to 1: a level or ramps")
-                .by_default("`flow`"),
-            key::number("initial", flow, "flow, or opening, before the first ramp").by_default(0.),
-            key::number("rated_flow", flow, "of the open valve; with `valve`")
-                .above_zero()
-                .by_default("")
-                .only_with("valve")
-                .into(&Cylinder::rated_flow),
-            key::number("rated_drop", kind::pressure, "of pressure per edge at that flow; with `valve`")
-                .above_zero()
-                .by_default("")
-                .only_with("valve")
-                .into(&Cylinder::rated_drop),
-            key::number("supply_pressure", kind::pressure, "of the pump; with `valve`")
-                .by_default("")
-                .only_with("valve")
-                .into(&Cylinder::supply),
-            key::number("tank_pressure", kind::pressure, "behind the valve")
-                .by_default(&Cylinder::tank)
-                .only_with("valve"),
-            waits_key()}}),
+      "Hydraulic cylinder: two oil columns fed by a flow or a valve. Method `bdf` only. A static initial state "
+      "includes the pressures of closed columns. The stroke has no end and pressures may fall below zero; a warning "
+      "gives the time. Add a \"stop\" where the oil columns end, and enough pressure.",
+      "`force` in the direction of growing u, `pressure_a`, `pressure_b`, `flow` into A, `stroke`",
+      joined({motion_keys(),
+              {key::number("area_a", kind::area, "piston area of chamber A; u grows as A is filled")
+                   .above_zero()
+                   .into(&Cylinder::area_a),
+               key::number("area_b", kind::area, "piston area of chamber B")
+                   .above_zero()
+                   .same_as("area_a")
+                   .into(&Cylinder::area_b),
+               key::number("volume_a", kind::volume, "oil volume in A at u = `zero_at`")
+                   .above_zero()
+                   .into(&Cylinder::volume_a),
+               key::number("volume_b", kind::volume, "oil volume in B at u = `zero_at`")
+                   .above_zero()
+                   .into(&Cylinder::volume_b),
+               key::number("zero_at", kind::length, "u at which volumes and pressures are given")
+                   .by_default(&Cylinder::zero),
+               key::number("bulk_modulus", kind::pressure, "bulk modulus of the oil")
+                   .above_zero()
+                   .by_default(&Cylinder::bulk_modulus),
+               key::number("pressure_a", kind::pressure, "pressure in A at u = `zero_at`")
+                   .by_default(&Cylinder::pressure_a),
+               key::number("pressure_b", kind::pressure, "pressure in B at u = `zero_at`")
+                   .by_default(&Cylinder::pressure_b),
+               key::number("leakage", leakage, "leakage past the piston, flow per pressure")
+                   .from_zero()
+                   .by_default(&Cylinder::leakage),
+               profile_key("flow", level_profile(flow, flow.example),
+                           "flow into A, while B returns the displaced oil: a level or ramps")
+                   .by_default("`valve`"),
+               profile_key("valve", level_profile(kind::number, "10"), "valve opening from -1 to 1: a level or ramps")
+                   .by_default("`flow`"),
+               key::number("initial", flow, "flow or valve opening before the first ramp").by_default(0.),
+               key::number("rated_flow", flow, "rated flow of the open valve; with `valve`")
+                   .above_zero()
+                   .by_default("")
+                   .only_with("valve")
+                   .into(&Cylinder::rated_flow),
+               key::number("rated_drop", kind::pressure, "pressure drop per edge at the rated flow; with `valve`")
+                   .above_zero()
+                   .by_default("")
+                   .only_with("valve")
+                   .into(&Cylinder::rated_drop),
+               key::number("supply_pressure", kind::pressure, "supply pressure of the pump; with `valve`")
+                   .by_default("")
+                   .only_with("valve")
+                   .into(&Cylinder::supply),
+               key::number("tank_pressure", kind::pressure, "tank pressure")
+                   .by_default(&Cylinder::tank)
+                   .only_with("valve"),
+               waits_key()}}),
       read_hydraulic_cylinder,
       {R"toml(from     = "slide"
 area_a   = "20 cm^2"

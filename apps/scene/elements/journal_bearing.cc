@@ -33,7 +33,7 @@ PairRequest read_bearing(const SceneTable &table, const Names &names)
   if (pair.from.marker == pair.to.marker)
     throw table.error("to", "lies on '" + pair.to.marker + "' like `from`; a bearing holds one body in another");
   if (!pair.from.at && !pair.to.at)
-    throw table.error("needs 'at', the middle of the bearing in the position the scene describes");
+    throw table.error("needs 'at', the centre of the bearing in the reference configuration");
   if (!pair.to.at)
     pair.to.at = pair.from.at;
   if (!pair.from.at)
@@ -45,10 +45,11 @@ std::vector<Key> bearing_keys()
 {
   return {key::named("from", "bearing"),
           key::named("to", "journal"),
-          key::vector("at", kind::length, "middle of the bearing in the initial configuration").by_default("`at_from`, `at_to`"),
+          key::vector("at", kind::length, "centre of the bearing in the initial configuration")
+              .by_default("`at_from`, `at_to`"),
           key::vector("at_from", kind::length, "centre of the bearing").by_default("`at`"),
           key::vector("at_to", kind::length, "centre of the journal").by_default("`at`"),
-          key::direction("axis", "of the bearing")};
+          key::direction("axis", "axis of the bearing")};
 }
 
 void add_bearing(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceLaw> law,
@@ -83,11 +84,11 @@ ElementType journal_bearing_type()
 {
   using Bearing = mechanism::JournalBearing::Parameters;
   return {"journal bearing",
-          "A journal in a bearing with radial play.",
+          "Journal in a bearing with radial play.",
           "`force`, `normal_force`, `friction_force`, `eccentricity`, `contact_angle` about `axis`, `sliding_speed`",
           joined({bearing_keys(),
                   {key::number("clearance", kind::length, "radial play").above_zero().into(&Bearing::clearance),
-                   key::number("radius", kind::length, "of the journal, needed for friction")
+                   key::number("radius", kind::length, "radius of the journal, required for friction")
                        .above_zero()
                        .by_default(&Bearing::radius)},
                   contact_keys(),
@@ -125,20 +126,21 @@ void read_rolling_bearing(const SceneTable &table, const Names &names, Scene &sc
 ElementType rolling_bearing_type()
 {
   using Bearing = mechanism::RollingBearing::Parameters;
-  return {
-      "rolling bearing",
-      "A shaft held by rolling elements: the same radial force over deflection in every direction, from a table.",
-      "`force` radial, `axial_force`, `eccentricity`",
-      joined({bearing_keys(),
-              {key::composed("table", Key::Form::rows, kind::force, {},
-                             "rows of radial deflection and force in ascending order, without the one at zero; its "
-                             "stiffness is continuous, beyond the last row it is constant"),
-               key::number("axial_stiffness", kind::stiffness, "along the axis")
-                   .from_zero()
-                   .by_default(&Bearing::axial_stiffness),
-               key::number("damping", kind::damping, "in every direction").from_zero().by_default(&Bearing::damping)}}),
-      read_rolling_bearing,
-      {R"toml(from            = "ground"
+  return {"rolling bearing",
+          "Rolling bearing: radial force from a table of force over deflection, the same in every radial direction.",
+          "`force` radial, `axial_force`, `eccentricity`",
+          joined({bearing_keys(),
+                  {key::composed("table", Key::Form::rows, kind::force, {},
+                                 "rows of radial deflection and force in ascending order, without the row at zero; the "
+                                 "stiffness is continuous, and constant beyond the last row"),
+                   key::number("axial_stiffness", kind::stiffness, "axial stiffness")
+                       .from_zero()
+                       .by_default(&Bearing::axial_stiffness),
+                   key::number("damping", kind::damping, "damping in every direction")
+                       .from_zero()
+                       .by_default(&Bearing::damping)}}),
+          read_rolling_bearing,
+          {R"toml(from            = "ground"
 to              = "lance"
 at              = [0, 0, 0]
 axis            = [0, 1, 0]
@@ -146,7 +148,7 @@ table           = [["5 um", "1.5 kN"], ["10 um", "3.5 kN"], ["20 um", "9 kN"]]
 axial_stiffness = "100 N/um"
 damping         = "2 kN s/m"
 )toml",
-       R"toml(from            = "ground"
+           R"toml(from            = "ground"
 to              = "lance"
 at_from         = [0, 0, 0]
 at_to           = [0, 0, 0]

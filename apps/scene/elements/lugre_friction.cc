@@ -21,34 +21,34 @@ ElementType lugre_friction_type()
 {
   using Friction = mechanism::LuGreFriction::Parameters;
   return {"lugre friction",
-          "Friction with presliding: bristles that bend; method bdf only.",
+          "LuGre friction: presliding by elastic bristles. Method `bdf` only.",
           "`force`, `rate`, `deflection`",
           joined({motion_keys(),
-                  {key::number("kinetic_force", kind::force, "while it slides")
+                  {key::number("kinetic_force", kind::force, "friction force while sliding")
                        .on_angle(kind::torque)
                        .above_zero()
                        .into(&Friction::kinetic_force),
-                   key::number("static_force", kind::force, "at the end of presliding")
+                   key::number("static_force", kind::force, "friction force at the end of presliding")
                        .on_angle(kind::torque)
                        .above_zero()
                        .same_as("kinetic_force")
                        .into(&Friction::static_force),
-                   key::number("stribeck_speed", kind::speed, "over which the force falls to the kinetic one")
+                   key::number("stribeck_speed", kind::speed, "Stribeck speed of the transition to kinetic friction")
                        .on_angle(kind::angular_speed)
                        .above_zero()
                        .by_default(&Friction::stribeck_speed),
-                   key::number("stribeck_exponent", kind::number, "of the fall")
+                   key::number("stribeck_exponent", kind::number, "exponent of the transition")
                        .above_zero()
                        .by_default(&Friction::stribeck_exponent),
-                   key::number("bristle_stiffness", kind::stiffness, "of the bristles")
+                   key::number("bristle_stiffness", kind::stiffness, "stiffness of the bristles")
                        .on_angle(kind::torsional_stiffness)
                        .above_zero()
                        .into(&Friction::bristle_stiffness),
-                   key::number("bristle_damping", kind::damping, "of the bristles")
+                   key::number("bristle_damping", kind::damping, "damping of the bristles")
                        .on_angle(kind::torsional_damping)
                        .from_zero()
                        .by_default(&Friction::bristle_damping),
-                   key::number("viscous", kind::damping, "of a damper beside it")
+                   key::number("viscous", kind::damping, "viscous damping, in addition")
                        .on_angle(kind::torsional_damping)
                        .from_zero()
                        .by_default(&Friction::viscous)}}),

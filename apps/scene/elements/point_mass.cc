@@ -20,14 +20,14 @@ void read_point_mass(const SceneTable &table, const Names &names, Scene &scene)
 ElementType point_mass_type()
 {
   return {"point mass",
-          "A mass, and its inertia, on a body or an interface of the frame.",
+          "Mass with inertia, attached to a body or an interface of the frame.",
           "",
-          {key::named("on", "body or frame.INTERFACE that carries it"),
-           key::number("mass", kind::mass, "of the point").above_zero().into(&PointMassRequest::mass),
-           key::vector("inertia", kind::inertia, "moments of inertia about the global axes, none negative")
+          {key::named("on", "body or frame.INTERFACE that carries the mass"),
+           key::number("mass", kind::mass, "mass of the point").above_zero().into(&PointMassRequest::mass),
+           key::vector("inertia", kind::inertia, "moments of inertia about the global axes")
                .by_default("[0, 0, 0]")
                .into(&PointMassRequest::inertia),
-           key::vector("offset", kind::length, "from the reference point of what carries it")
+           key::vector("offset", kind::length, "offset from the reference point of the carrier")
                .by_default("[0, 0, 0]")
                .into(&PointMassRequest::offset)},
           read_point_mass,

@@ -33,35 +33,41 @@ void read_speed_drive(const SceneTable &table, const Names &names, Scene &scene)
 ElementType speed_drive_type()
 {
   using Drive = mechanism::SpeedDrive::Parameters;
-  return {"speed drive",
-          "Torque k_p (speed - actual) + k_i times its integral, limited without winding up; method bdf only.",
-          "`torque`, `power`, `wanted_speed`, `speed_error`, `integral`",
-          joined({shaft_keys(),
-                  {or_input(course_key("speed", speed_profile(), "wanted speed: a level, ramps or a function of time")),
-                   key::number("proportional_gain", gain, "k_p").above_zero().into(&Drive::proportional_gain),
-                   key::number("integral_gain", gain_of_angle, "k_i").from_zero().by_default(&Drive::integral_gain),
-                   key::number("largest_torque", kind::torque, "to either side")
-                       .above_zero()
-                       .by_default(&Drive::largest_torque),
-                   key::number("initial_speed", kind::angular_speed, "before the first ramp").by_default(0.),
-                   waits_key()}}),
-          read_speed_drive,
-          {R"toml(on                = "crank"           # run-up without a jerk, and down again
+  return {
+      "speed drive",
+      "Speed controller: torque = k_p (setpoint - actual speed) + k_i times the integral of this error, limited, with "
+      "anti-windup. Method `bdf` only.",
+      "`torque`, `power`, `wanted_speed`, `speed_error`, `integral`",
+      joined({shaft_keys(),
+              {or_input(course_key("speed", speed_profile(), "speed setpoint: a level, ramps or a function of time")),
+               key::number("proportional_gain", gain, "proportional gain k_p")
+                   .above_zero()
+                   .into(&Drive::proportional_gain),
+               key::number("integral_gain", gain_of_angle, "integral gain k_i")
+                   .from_zero()
+                   .by_default(&Drive::integral_gain),
+               key::number("largest_torque", kind::torque, "torque limit, in both directions")
+                   .above_zero()
+                   .by_default(&Drive::largest_torque),
+               key::number("initial_speed", kind::angular_speed, "setpoint before the first ramp").by_default(0.),
+               waits_key()}}),
+      read_speed_drive,
+      {R"toml(on                = "crank"           # run-up without a jerk, and down again
 proportional_gain = "200 N m s/rad"
 integral_gain     = "4000 N m/rad"
 largest_torque    = "2 kN m"
 speed = [{ at = "0.1 s", to = "30 1/min", acceleration = "10 rad/s^2", jerk = "200 rad/s^3" },
          { at = "4 s", to = 0, acceleration = "5 rad/s^2" }]
 )toml",
-           R"toml(on                = "crank"
+       R"toml(on                = "crank"
 proportional_gain = "200 N m s/rad"
 speed             = { table = [["0 s", 0], ["1 s", 3], ["2 s", 10]], period = "2 s", rise = 10 }
 )toml",
-           R"toml(on                = "crank"
+       R"toml(on                = "crank"
 proportional_gain = "200 N m s/rad"
 speed             = { function = "10 rad/s*sin(2*pi*t/(2 s))", period = "2 s" }
 )toml",
-           R"toml(on                = "crank"
+       R"toml(on                = "crank"
 proportional_gain = "200 N m s/rad"
 initial_speed     = "30 1/min"
 speed             = { input = "w" }

@@ -26,21 +26,22 @@ ElementType spring_damper_type()
 {
   using Spring = mechanism::SpringDamper::Parameters;
   return {"spring-damper",
-          "F = preload + c (u - rest) + b u' acts on `to` along the direction and on `from` against it.",
+          "Force F = preload + c (u - rest) + b u', acting on `to` along the direction and on `from` in the opposite "
+          "direction.",
           "`force` (or `torque`), `displacement`, `rate`",
           joined({motion_keys(),
-                  {key::number("stiffness", kind::stiffness, "c")
+                  {key::number("stiffness", kind::stiffness, "stiffness c")
                        .on_angle(kind::torsional_stiffness)
                        .from_zero()
                        .by_default(&Spring::stiffness),
-                   key::number("damping", kind::damping, "b")
+                   key::number("damping", kind::damping, "damping b")
                        .on_angle(kind::torsional_damping)
                        .from_zero()
                        .by_default(&Spring::damping),
                    key::number("preload", kind::force, "force at u = rest")
                        .on_angle(kind::torque)
                        .by_default(&Spring::preload),
-                   key::number("rest", kind::length, "u without the force of the spring")
+                   key::number("rest", kind::length, "u at which the spring force is zero")
                        .on_angle(kind::angle)
                        .by_default(&Spring::rest)}}),
           read_spring_damper,

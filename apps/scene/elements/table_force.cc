@@ -26,16 +26,18 @@ void read_table_force(const SceneTable &table, const Names &names, Scene &scene)
 
 ElementType table_force_type()
 {
-  return {"table force",
-          "A force from a table, linear between its rows and constant beyond; two rows at one place are a jump.",
-          "`force`, `displacement`, `rate`",
-          joined({motion_keys(),
-                  {key::choice("against", {"time", "displacement", "rate"}, false, "what the first column is"),
-                   key::composed("table", Key::Form::rows, kind::force, {},
-                                 "two rows or more in ascending order; +F acts on `from` along the direction")
-                       .on_angle(kind::torque)}}),
-          read_table_force,
-          {R"toml(from    = "slide"
+  return {
+      "table force",
+      "Force from a table, linear between the rows and constant beyond them; two rows with the same argument are a "
+      "jump.",
+      "`force`, `displacement`, `rate`",
+      joined({motion_keys(),
+              {key::choice("against", {"time", "displacement", "rate"}, false, "quantity in the first column"),
+               key::composed("table", Key::Form::rows, kind::force, {},
+                             "two rows or more in ascending order; a positive force acts on `from` along the direction")
+                   .on_angle(kind::torque)}}),
+      read_table_force,
+      {R"toml(from    = "slide"
 against = "time"
 table   = [["0 s", "3 kN"], ["0.2 s", "3 kN"], ["0.2 s", 0]]
 )toml"}};

@@ -20,13 +20,13 @@ ElementType wheel_type()
 {
   using Wheel = mechanism::Wheel::Parameters;
   return {"wheel",
-          "A tyre on the ground: F = -c u - d u' pushes up and lifts off; u is the height of the hub above the "
+          "Tyre on the ground that can lift off: F = -c u - d u' pushes upwards; u is the height of the hub above the "
           "position in which the tyre is just unloaded.",
           "`force`, `compression`",
           joined({motion_keys(),
-                  {key::number("stiffness", kind::stiffness, "c of the tyre").above_zero().into(&Wheel::stiffness),
-                   key::number("damping", kind::damping, "d of the tyre").from_zero().by_default(&Wheel::damping),
-                   key::truth("bilateral", false, "stands always").into(&Wheel::bilateral)}}),
+                  {key::number("stiffness", kind::stiffness, "tyre stiffness c").above_zero().into(&Wheel::stiffness),
+                   key::number("damping", kind::damping, "tyre damping d").from_zero().by_default(&Wheel::damping),
+                   key::truth("bilateral", false, "the tyre never lifts off").into(&Wheel::bilateral)}}),
           read_wheel,
           {R"toml(from      = "slide"
 stiffness = "600 N/mm"

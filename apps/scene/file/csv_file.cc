@@ -45,9 +45,9 @@ CsvFile parsed(const std::string &name, std::istream &in)
     if (number == 1 && line.rfind("\xef\xbb\xbf", 0) == 0)
       line.erase(0, 3); // the mark of UTF-8 that spreadsheets put first
     if (line.find('\0') != std::string::npos)
-      throw std::invalid_argument(table.place(number) +
-                                  "holds a zero byte; it is written in UTF-16 or is no text: save "
-                                  "the table as CSV in UTF-8");
+      throw std::invalid_argument(
+          table.place(number) +
+          "holds a zero byte; it is written in UTF-16 or is not text: save the table as CSV in UTF-8");
     const std::string text = trimmed(line);
     if (text.empty() || text[0] == '#')
       continue;
@@ -102,7 +102,7 @@ int CsvFile::integer(const Line &line, std::size_t column) const
   const long         value = std::strtol(cell.c_str(), &end, 10);
   if (*end != '\0' || value < -1000000000 || value > 1000000000)
     throw std::invalid_argument(place(line.number) + "column '" + head[column] + "': got '" + cell +
-                                "'; it needs a whole number, or nothing");
+                                "'; it needs an integer, or nothing");
   return int(value);
 }
 

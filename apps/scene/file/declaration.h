@@ -29,7 +29,7 @@ void read_into(std::optional<Member> &member, const SceneTable &table, const Key
 
 /**
  * The type of a key of a table, and the member that stores its value.  Its reader (SceneTable::fill()), `gestell help`,
- * the schema for editors and the tables of docs/scene are generated from it:
+ * the schema for editors and the tables of docs/reference/scene are generated from it:
  *
  *     key::number("stiffness", kind::stiffness, "of the rope")
  *         .on_angle(kind::torsional_stiffness)

@@ -11,12 +11,12 @@ namespace gestell::apps
 /**
  * Why the value of a key is implausible: "is 1500 rad/s; expected: at most 400 rad/s, as ..."; else "".
  *
- * Ranges of keys and, for all other keys, of kinds are in one table (docs/scene/magnitudes.md): typical values of
- * machines, not limits of the laws.  Zero is always plausible.
+ * Ranges of keys and, for all other keys, of kinds are in one table (docs/reference/scene/magnitudes.md): typical
+ * values of machines, not limits of the laws.  Zero is always plausible.
  */
 std::string unexpected_words(const std::string &key, const Kind &kind, double value);
 
-/// A value that is implausible by docs/scene/magnitudes.md.
+/// A value that is implausible by docs/reference/scene/magnitudes.md.
 struct UnexpectedValue
 {
   std::string place;       ///< "press.toml:12: element.rod.stiffness"

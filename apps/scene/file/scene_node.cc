@@ -32,9 +32,9 @@ std::string type_name(Type type)
   case Type::array:
     return "an array";
   case Type::text:
-    return "text";
+    return "a string";
   case Type::integer:
-    return "a whole number";
+    return "an integer";
   case Type::real:
     return "a number";
   case Type::boolean:

@@ -52,7 +52,7 @@ struct SceneNode
   SceneNode       *find(const std::string &key);
 };
 
-/// "a table", "text", "a whole number" ...
+/// "a table", "a string", "an integer" ...
 std::string type_name(SceneNode::Type type);
 
 /// A value for messages: its text, or its type.

@@ -249,7 +249,7 @@ int SceneTable::integer(const std::string &key, int fallback) const
     return fallback;
   const double number = evaluate(key, *value, kind::number);
   if (value->type == Type::real || number != std::round(number) || std::abs(number) > 1e9)
-    throw error(key, "needs a whole number, got " + value->text);
+    throw error(key, "needs an integer, got " + value->text);
   return static_cast<int>(number);
 }
 
@@ -346,11 +346,11 @@ Vector3 SceneTable::direction(const std::string &key, const Vector3 &fallback) c
 
 std::string SceneTable::text(const std::string &key) const
 {
-  const SceneNode &value = demand(key, "text in quotes");
+  const SceneNode &value = demand(key, "a string in quotes");
   if (value.type != Type::text)
-    throw error(key, "needs text in quotes, got " + described(value));
+    throw error(key, "needs a string in quotes, got " + described(value));
   if (value.text.empty())
-    throw error(key, "needs text, got an empty one");
+    throw error(key, "needs a string, got an empty one");
   return value.text;
 }
 
@@ -374,14 +374,14 @@ std::string SceneTable::choice(const std::string &key, const std::vector<std::st
 
 std::vector<std::string> SceneTable::texts(const std::string &key) const
 {
-  const SceneNode &value = demand(key, "text in quotes or an array of texts");
+  const SceneNode &value = demand(key, "a string in quotes or a list of strings");
   if (value.type != Type::array)
     return {text(key)};
   std::vector<std::string> result;
   for (const auto &element : value.elements)
   {
     if (element.type != Type::text || element.text.empty())
-      throw error(key, "needs an array of texts in quotes, got " + described(element) + " in it");
+      throw error(key, "needs a list of strings in quotes, got " + described(element) + " in it");
     result.push_back(element.text);
   }
   if (result.empty())

@@ -35,7 +35,7 @@ std::string hint_of_header(const std::string &header)
   static const std::regex with_spaces(R"(^\[+(.*\.)?([^".\]]*[^".\]A-Za-z0-9_-][^".\]]*)\]+$)");
   std::smatch             parts;
   if (std::regex_match(header, parts, with_spaces))
-    return "a name with more than letters, digits, _ and - stands in quotes: [" + parts[1].str() + "\"" +
+    return "a name with more than letters, digits, _ and - needs quotes: [" + parts[1].str() + "\"" +
            trimmed(parts[2]) + "\"]";
   return header.back() == ']' ? "" : "the head of a table ends with ]";
 }
@@ -63,7 +63,7 @@ std::string hint_of_value(const std::string &value)
   if (value == "True" || value == "False" || value == "TRUE" || value == "FALSE" || value == "yes" || value == "no")
     return "write true or false";
   if (std::regex_match(value, word))
-    return "text stands in quotes: \"" + value + "\"";
+    return "a string needs quotes: \"" + value + "\"";
   return "";
 }
 
@@ -89,7 +89,7 @@ std::string toml_hint(const std::string &line)
   const std::string       key = trimmed(content.substr(0, equals));
   static const std::regex with_more(R"(^[^"'.]*[^"'.A-Za-z0-9_-][^"'.]*$)");
   if (std::regex_match(key, with_more))
-    return "a key with more than letters, digits, _ and - stands in quotes: \"" + key + "\"";
+    return "a key with more than letters, digits, _ and - needs quotes: \"" + key + "\"";
   return hint_of_value(trimmed(content.substr(equals + 1)));
 }
 
@@ -125,9 +125,9 @@ std::string hint_of_repetition(const std::string &line, const std::string &reaso
       reason.find(" as dotted") != std::string::npos)
     return name + ": the same name stands above for another value (" + type + "); it cannot be a table as well";
   if (type == "table")
-    return head ? "[" + name + "] stands in the file twice; put all its keys under one head"
+    return head ? "[" + name + "] is defined twice in the file; put all its keys under one heading"
                 : "'" + name + "' is already a table above";
-  return "the key '" + name + "' stands twice in this table; leave one of the two out";
+  return "the key '" + name + "' is defined twice in this table; remove one of them";
 }
 
 /// Hint from the reason only, if the line itself gives none.
@@ -190,7 +190,7 @@ std::pair<int, std::string> hint_of_bytes(const std::string &text)
 {
   const std::string begin = text.substr(0, 2);
   if (begin == "\xFF\xFE" || begin == "\xFE\xFF" || text.substr(0, 256).find('\0') != std::string::npos)
-    return {1, "is written in UTF-16 or is no text; save it as UTF-8, as editors offer with the encoding"};
+    return {1, "is written in UTF-16 or is not text; save it as UTF-8, as editors offer with the encoding"};
   if (text.compare(0, 10, "ISO-10303-") == 0)
     return {1, "is a STEP file, not a scene; 'gestell mesh FILE' shows it, and a scene names it as frame.cad"};
   for (std::size_t at = 0; at < text.size();)

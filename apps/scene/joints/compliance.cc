@@ -35,19 +35,22 @@ const std::vector<Key> &compliance_keys()
 {
   static const std::vector<Key> keys = {
       key::number("stiffness", kind::stiffness,
-                  "in every direction that the joint holds, or `[x, y, z]` along the global axes in the position "
-                  "described, which then turn with `from`; 0 holds nothing")
+                  "stiffness in every direction that the joint constrains, or `[x, y, z]` along the global axes in the "
+                  "reference configuration, which then rotate with `from`; 0 leaves a direction free")
           .from_zero()
           .also({Key::Form::vector})
           .by_default("ideal"),
-      key::number("damping", kind::damping, "likewise").from_zero().also({Key::Form::vector}).by_default(0.),
+      key::number("damping", kind::damping, "damping in the same directions")
+          .from_zero()
+          .also({Key::Form::vector})
+          .by_default(0.),
       key::number("rotational_stiffness", kind::torsional_stiffness,
-                  "about every axis that the joint holds; demanded where it yields and holds any: a pin of planar "
-                  "bodies holds none, one of a rigid body two")
+                  "rotational stiffness about every constrained axis. Required with `stiffness` if the joint "
+                  "constrains rotations: a pin of planar bodies constrains none, that of a rigid body two")
           .above_zero()
           .by_default("ideal")
           .into(&ComplianceRequest::rotational_stiffness),
-      key::number("rotational_damping", kind::torsional_damping, "likewise")
+      key::number("rotational_damping", kind::torsional_damping, "damping about the same axes")
           .from_zero()
           .by_default("0")
           .into(&ComplianceRequest::rotational_damping)};

@@ -12,8 +12,8 @@ namespace
 
 std::vector<Key> cam_keys()
 {
-  return joined({{key::named("from", "motion of the input, [named](#places-and-measures) by a measure or coordinate"),
-                  key::named("to", "motion of the follower, likewise")},
+  return joined({{key::named("from", "input: a measure or coordinate, [see there](#places-and-measures)"),
+                  key::named("to", "follower: a measure or coordinate")},
                  position_function_keys()});
 }
 
@@ -40,13 +40,13 @@ void read_prescribed_motion(const SceneTable &table, const Names &names, JointRe
 
 JointType position_function_type()
 {
-  return {"position function", "`to` = f(`from`): a cam, an indexing drive.",
+  return {"position function", "`to` = f(`from`): cams, indexing drives.",
           "`force` or `torque` on `to`, `reaction` on `from`", cam_keys(), read_cam};
 }
 
 MeasureType position_function_measure()
 {
-  return {"position function", "`to` - f(`from`): how far the follower `to` is off its cam.",
+  return {"position function", "`to` - f(`from`): distance of the follower `to` from its cam.",
           "`value`, `rate`, `acceleration`", cam_keys(),
           [](const SceneTable &table, const Names &names)
           {
@@ -59,11 +59,12 @@ JointType prescribed_motion_type()
 {
   return {"prescribed motion",
           "`on` = `initial` + f(t).",
-          "`force` or `torque`, `power` that it feeds",
-          {key::named("on", "[a motion](#places-and-measures)"), key::table("motion", motion_law_keys(), "f"),
+          "`force` or `torque`, and the `power` supplied",
+          {key::named("on", "[a measure or coordinate](#places-and-measures)"),
+           key::table("motion", motion_law_keys(), "function of time f(t)"),
            key::number("initial", kind::length, "value at the start")
                .on_angle(kind::angle)
-               .by_default("as described")
+               .by_default("that of the reference configuration")
                .into(&JointRequest::value)},
           read_prescribed_motion};
 }

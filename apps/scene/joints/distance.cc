@@ -19,14 +19,15 @@ JointType distance_type()
 {
   JointType type{
       "distance",
-      "Holds the distance of two places: a massless rod, a taut rope, a cylinder.",
-      "`force`, positive where it pushes them apart",
+      "Constrains the distance of two points: a massless rod, a taut rope, a cylinder.",
+      "`force`, positive if it pushes the points apart",
       joined({two_places(),
               {key::number("length", kind::length, "distance")
                    .above_zero()
-                   .by_default("as described")
+                   .by_default("that of the reference configuration")
                    .into(&JointRequest::length),
-               key::table("motion", motion_law_keys(), "by which it grows, from `length` on").by_default("none")}}),
+               key::table("motion", motion_law_keys(), "growth of the distance over time, starting at `length`")
+                   .by_default("none")}}),
       read_distance,
       [](JointEquations &equations, const JointRequest &joint) { equations.distance(joint); }};
   type.drawn = JointType::Drawn::bar;

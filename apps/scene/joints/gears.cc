@@ -42,14 +42,14 @@ void read_gear(const SceneTable &table, const Names &names, JointRequest &joint)
 std::vector<Key> gear_mesh_keys()
 {
   return joined({two_places(),
-                 {key::direction("axis", "of both wheels").into(&MeshRequest::axis),
+                 {key::direction("axis", "axis of both wheels").into(&MeshRequest::axis),
                   key::number("ratio", kind::number,
-                              "angle of `to` for one of `from`, against the line of their centres: negative of two "
-                              "outer wheels, positive with a ring, `\"-18/24\"`")
+                              "angle of `to` per angle of `from`, relative to the line of centres: negative for two "
+                              "external gears, positive for a ring gear; `\"-18/24\"`")
                       .into(&MeshRequest::ratio),
                   key::number("pressure_angle", kind::angle,
-                              "of the flank that carries while `force` is positive, negative of the other; between -45 "
-                              "and 45 degrees")
+                              "pressure angle of the flank that carries positive `force`, negative for the other "
+                              "flank; between -45 and 45 degrees")
                       .by_default(&MeshRequest::pressure_angle)}});
 }
 
@@ -86,10 +86,10 @@ JointType gear_type()
   JointType type{
       "gear",
       "Coordinate of `to` = `ratio` times that of `from`: angles of rotors and planar bodies, displacements of "
-      "sliders. With `carrier` both count against it (Willis), and it takes the rest of the torque.",
+      "sliders. With `carrier` both are relative to it (Willis equation), and it takes the remaining torque.",
       "`torque` or `force` on `to`",
       joined({one_point(),
-              {key::number("ratio", kind::number, "of the coordinates").into(&JointRequest::ratio),
+              {key::number("ratio", kind::number, "ratio of the coordinates").into(&JointRequest::ratio),
                key::named("carrier", "body or interface that carries the wheels").by_default("none")}}),
       read_gear,
       [](JointEquations &equations, const JointRequest &joint) { equations.gear(joint.ratio); }};
@@ -100,11 +100,10 @@ JointType gear_type()
 JointType gear_mesh_type()
 {
   return {"gear mesh",
-          "Holds the angles of two wheels against the line of their centres. The wheels may be carried by different "
-          "bodies; radii follow from the distance of the centres, `at_from` and `at_to`, as described. A ring that is "
-          "held is `to = "
-          "\"ground\"`, a body or an interface.",
-          "`force` of the teeth, positive where it turns `to` positively about `axis`", gear_mesh_keys(),
+          "Couples the angles of two gears relative to the line of their centres. Different bodies may carry them. The "
+          "radii follow from the distance of the centres `at_from` and `at_to` in the reference configuration. For a "
+          "fixed ring gear, `to` is `\"ground\"`, a body or an interface.",
+          "tooth `force`, positive if it turns `to` positively about `axis`", gear_mesh_keys(),
           [](const SceneTable &table, const Names &names, JointRequest &joint)
           { joint.measure = read_gear_mesh(table, names); }};
 }
@@ -112,8 +111,8 @@ JointType gear_mesh_type()
 MeasureType gear_mesh_measure()
 {
   return {"gear mesh",
-          "Way along the line of action of the teeth of two wheels, as of the [joint](#joints): a clearance or spring "
-          "on it is an elastic gear with backlash.",
+          "Displacement along the line of action of two gears, as for the [joint](#gear-mesh-1). With a clearance or "
+          "spring `on` it, the mesh is elastic with backlash.",
           "`value`, `rate`, `acceleration`", gear_mesh_keys(), read_gear_mesh};
 }
 

@@ -44,8 +44,8 @@ std::vector<RubbingMotion> slide_across(const JointRequest &joint, const Pair &)
 JointType cylindrical_type()
 {
   JointType type{"cylindrical",
-                 "Holds `to` on the line through `at` along `axis`, which turns with `from`, and turning about it "
-                 "alone.",
+                 "Keeps `to` on the line through `at` along `axis`, which rotates with `from`; `to` may slide along it "
+                 "and rotate about it.",
                  "`fx` ..., `mx` ...",
                  point_joint({axis_key(), joint_friction_key()}),
                  read_one_point,
@@ -60,7 +60,7 @@ JointType cylindrical_type()
 JointType prismatic_type()
 {
   JointType type{"prismatic",
-                 "Holds `to` on a line along `axis`, which turns with `from`, and their rotation.",
+                 "Keeps `to` on a line along `axis`, which rotates with `from`, and prevents relative rotation.",
                  "`fx` ..., `torque`, or `mx` ...",
                  point_joint({axis_key(), joint_friction_key()}),
                  read_joined_places,
@@ -74,9 +74,9 @@ JointType prismatic_type()
 JointType in_plane_type()
 {
   JointType type{"in-plane",
-                 "Holds `to` in a plane across `axis`, which turns with `from`.",
+                 "Keeps `to` in the plane with the normal `axis`, which rotates with `from`.",
                  "`force`",
-                 point_joint({axis_key("across the plane"), joint_friction_key()}),
+                 point_joint({axis_key("normal of the plane"), joint_friction_key()}),
                  read_joined_places,
                  [](JointEquations &equations, const JointRequest &joint) { equations.in_plane(vector(joint.axis)); }};
   type.friction.motions = slide_across;

@@ -47,24 +47,26 @@ Key joint_friction_key()
   std::vector<Key> keys = sliding_friction_key().keys;
   for (Key &key : keys)
     if (key.name == "stribeck_exponent")
-      key = key.by_default("1; of `\"lugre\"` 2");
+      key = key.by_default("1; for `\"lugre\"` 2");
   return key::composed(
              "friction", Key::Form::coefficient, kind::number,
-             joined({{key::choice("law", {"smooth", "dry", "lugre"}, true, "what happens near rest")},
+             joined({{key::choice("law", {"smooth", "dry", "lugre"}, true, "behaviour near rest")},
                      keys,
-                     {key::number("bristle_stiffness", bristles_per_metre, "of `\"lugre\"`")
+                     {key::number("bristle_stiffness", bristles_per_metre, "bristle stiffness for `\"lugre\"`")
                           .above_zero()
-                          .by_default("demanded of `\"lugre\"`"),
-                      key::number("bristle_damping", bristle_damping, "of `\"lugre\"`").from_zero().by_default(0.),
-                      key::number("radius", kind::length, "of the pin or the ball")
+                          .by_default("required for `\"lugre\"`"),
+                      key::number("bristle_damping", bristle_damping, "bristle damping for `\"lugre\"`")
+                          .from_zero()
+                          .by_default(0.),
+                      key::number("radius", kind::length, "radius of the pin or the ball")
                           .above_zero()
-                          .by_default("demanded of joints that turn"),
+                          .by_default("required for joints that rotate"),
                       key::number("length", kind::length,
-                                  "of the guide of a prismatic or cylindrical joint, whose ends hold torques by forces "
-                                  "that rub too")
+                                  "length of the guide of a prismatic or cylindrical joint: torques are carried by "
+                                  "forces at its ends, which also cause friction")
                           .above_zero()
-                          .by_default("they do not")}}),
-             "by the force the joint carries, [see there](#friction-in-joints)")
+                          .by_default("torques cause no friction")}}),
+             "friction due to the joint force, [see there](#friction-in-joints)")
       .from_zero()
       .by_default("none");
 }
@@ -150,12 +152,10 @@ coupling::Measure constant_motion(const Pair &pair, const RubbingMotion &rubbing
   using coupling::operator+, coupling::operator*; // a Measure is a plain vector, so the namespace does not tell
   const bool constant = rubbing.turns ? !pair.in_space() : !turns_far(pair.on_first) || !turns_far(pair.on_second);
   if (!constant)
-    throw std::invalid_argument(
-        rubbing.turns
-            ? "has friction of law \"dry\", which can hold planar bodies and rotors, but not a body that turns "
-              "freely in space; use \"lugre\", or \"smooth\""
-            : "has friction of law \"dry\", which can hold a slide on what does not turn, but here both bodies turn; "
-              "use \"lugre\", or \"smooth\"");
+    throw std::invalid_argument(rubbing.turns ? "has friction of law \"dry\", which can stop planar bodies and rotors, "
+                                                "but not a free spatial body; use \"lugre\", or \"smooth\""
+                                              : "has friction of law \"dry\", which needs a body that does not rotate, "
+                                                "but here both bodies rotate; use \"lugre\", or \"smooth\"");
   const double      zero[mechanism::PlacedMeasure::max_measures] = {};
   double            gradient[mechanism::PlacedMeasure::max_measures];
   coupling::Measure u;

@@ -11,8 +11,10 @@ std::vector<Key> two_places()
 {
   const auto at = [](const std::string &name, const std::string &meaning)
   { return key::vector(name, kind::length, meaning).by_default("its own point"); };
-  return {key::named("from", "body, frame.INTERFACE, ground or place"), key::named("to", "the other one"),
-          at("at_from", "point of `from`, as described"), at("at_to", "the same of `to`")};
+  return {key::named("from", "body, frame.INTERFACE, ground or marker"),
+          key::named("to", "the second body, frame.INTERFACE, ground or marker"),
+          at("at_from", "point of `from` in the reference configuration"),
+          at("at_to", "point of `to` in the reference configuration")};
 }
 
 std::vector<Key> place_on_ground()
@@ -25,7 +27,8 @@ std::vector<Key> place_on_ground()
 std::vector<Key> one_point()
 {
   return joined({two_places(),
-                 {key::vector("at", kind::length, "point of both, as described, in place of `at_from` and `at_to`")
+                 {key::vector("at", kind::length,
+                              "common point of both in the reference configuration, instead of `at_from` and `at_to`")
                       .by_default("its own point")}});
 }
 
@@ -71,7 +74,7 @@ void read_one_point(const SceneTable &table, const Names &names, JointRequest &j
 {
   read_joined_places(table, names, joint);
   if (!joint.from.at)
-    throw table.error("needs 'at', the point of the joint in the position the scene describes");
+    throw table.error("needs 'at', the point of the joint in the reference configuration");
 }
 
 bool turns_about_own_axis(const BodyRequest *body)

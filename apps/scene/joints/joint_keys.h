@@ -12,7 +12,7 @@ std::vector<Key> place_on_ground();                        ///< the same; `to` i
 std::vector<Key> one_point();                              ///< or with one common point `at`
 std::vector<Key> point_joint(const std::vector<Key> &own); ///< with one point; it can be compliant
 
-Key axis_key(const std::string &meaning = "the line, which turns with `from`");
+Key axis_key(const std::string &meaning = "axis, which rotates with `from`");
 
 /// Reads two points, and the other keys of the joint.
 void read_two_places(const SceneTable &table, const Names &names, JointRequest &joint);

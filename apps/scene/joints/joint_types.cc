@@ -114,8 +114,8 @@ const JointType &joint_type(const std::string &name)
 
 const std::vector<Key> &place_keys()
 {
-  static const std::vector<Key> keys = {key::named("on", "body, frame.INTERFACE or ground"),
-                                        key::vector("at", kind::length, "in the position the scene describes")};
+  static const std::vector<Key> keys = {key::named("on", "body, frame.INTERFACE or ground that carries the marker"),
+                                        key::vector("at", kind::length, "position in the reference configuration")};
   return keys;
 }
 

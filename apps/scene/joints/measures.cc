@@ -94,38 +94,37 @@ MeasureType position_function_measure(), gear_mesh_measure();
 const std::vector<MeasureType> &measure_types()
 {
   static const auto types = with_type<MeasureType>(
-      {{"distance", "Distance of two places.", measure_signals, place_on_ground(), read_distance_of},
+      {{"distance", "Distance of two points.", measure_signals, place_on_ground(), read_distance_of},
        {"along",
-        "Motion of `from` against `to` along a direction fixed in space or, with `carried_by`, turning with one of "
-        "the two.",
+        "Displacement of `from` relative to `to` along a direction that is fixed in space or, with `carried_by`, "
+        "rotates with one of the two.",
         measure_signals,
         joined({place_on_ground(),
-                {key::direction("direction", "that counts").into(&MeasureRequest::a),
-                 key::named("carried_by", "body or interface of one of the two, with which the direction turns")
+                {key::direction("direction", "direction of the displacement").into(&MeasureRequest::a),
+                 key::named("carried_by", "body or interface (one of the two) with which the direction rotates")
                      .by_default("none")}}),
         read_along},
        {"inclination", "Angle of the line from `from` to `to`, -180 to 180 degrees.", measure_signals,
         joined({place_on_ground(),
-                {key::direction("zero", "where it is zero").into(&MeasureRequest::a),
-                 key::direction("towards", "towards which it grows, at right angles to `zero`")
+                {key::direction("zero", "direction of the line at angle zero").into(&MeasureRequest::a),
+                 key::direction("towards", "direction towards which the angle grows, perpendicular to `zero`")
                      .into(&MeasureRequest::b)}}),
         read_inclination},
        {"angle",
-        "Rotation of the body or interface `from` against `to` about an axis, zero as described. With a rigid body "
-        "the axis turns with `to` and the angle lies between -180 and 180 degrees; a law on it is a torque, the way "
-        "to put one on a rigid body.",
-        measure_signals, joined({place_on_ground(), {key::direction("about", "axis")}}), read_angle},
+        "Rotation of the body or interface `from` relative to `to` about an axis, zero in the reference configuration. "
+        "For a rigid body the axis rotates with `to`, and the angle is between -180 and 180 degrees. An element `on` "
+        "this measure applies a torque, also to a rigid body.",
+        measure_signals, joined({place_on_ground(), {key::direction("about", "axis of the angle")}}), read_angle},
        position_function_measure(),
        {"sum",
-        "Sum of factor times motion; all terms must be lengths, or all angles. A clearance on it is the backlash of a "
-        "gear.",
+        "Sum of terms factor times motion, all lengths or all angles. A clearance `on` it is the backlash of a gear.",
         measure_signals,
         {key::composed("terms", Key::Form::tables, kind::number,
-                       {key::named("of", "[a motion](#places-and-measures)"),
+                       {key::named("of", "[a measure or coordinate](#places-and-measures)"),
                         key::plain("factor", Key::Form::quantity,
-                                   "of the term; without unit it takes the one that makes its term fit")
+                                   "factor of the term; a plain number has the unit that the term needs")
                             .by_default(1.)},
-                       "`[{ of = \"rack\" }, { of = \"pinion\", factor = \"-40 mm\" }]`")},
+                       "terms of the sum, `[{ of = \"rack\" }, { of = \"pinion\", factor = \"-40 mm\" }]`")},
         read_sum},
        gear_mesh_measure()});
   return types;

@@ -124,12 +124,12 @@ JointType revolute_type()
 {
   JointType type{
       "revolute",
-      "Holds the point `at` of both together; of planar bodies against a frame in their plane. Rotors and planar "
-      "bodies in it must turn about parallel axes. Of a rigid body it needs the `axis` and holds it too; others may "
-      "give the one they have.",
-      "`fx`, `fy`, `fz`; of a rigid body with `axis` `mx` ...",
+      "Pin: the point `at` of both bodies coincides (for a planar body on a frame, within its plane). Rotors and "
+      "planar bodies must rotate about parallel axes. A rigid body needs `axis`, which is also constrained; for others "
+      "it is optional.",
+      "`fx`, `fy`, `fz`; for a rigid body also `mx` ...",
       point_joint(
-          {key::direction("axis", "about which it turns").by_default("that of the bodies; demanded of a rigid one"),
+          {key::direction("axis", "axis of rotation").by_default("that of the bodies; required for a rigid body"),
            joint_friction_key()}),
       read_revolute,
       demand_revolute};
@@ -144,7 +144,7 @@ JointType revolute_type()
 
 JointType spherical_type()
 {
-  JointType type{"spherical",        "Holds the point `at` of both together.",
+  JointType type{"spherical",        "Ball joint: the point `at` of both bodies coincides.",
                  "`fx`, `fy`, `fz`", point_joint({joint_friction_key()}),
                  read_one_point,     [](JointEquations &equations, const JointRequest &) { equations.coincide(); }};
   type.friction.turns   = true;
@@ -154,14 +154,14 @@ JointType spherical_type()
 
 JointType universal_type()
 {
-  JointType type{"universal",
-                 "Holds the point `at` of both together, and the two axes, one on each body, at right angles: the bars "
-                 "of a cross.",
-                 "`fx` ..., `torque`",
-                 point_joint({key::direction("axis_from", "axis on `from`").into(&JointRequest::axis),
-                              key::direction("axis_to", "axis on `to`").into(&JointRequest::axis_to)}),
-                 read_universal,
-                 demand_universal};
+  JointType type{
+      "universal",
+      "Universal joint: the point `at` of both bodies coincides, and two axes, one on each body, stay perpendicular.",
+      "`fx` ..., `torque`",
+      point_joint({key::direction("axis_from", "axis on `from`").into(&JointRequest::axis),
+                   key::direction("axis_to", "axis on `to`").into(&JointRequest::axis_to)}),
+      read_universal,
+      demand_universal};
   type.holds_rotations = true;
   return type;
 }
@@ -169,7 +169,7 @@ JointType universal_type()
 JointType rigid_type()
 {
   JointType type{"rigid",
-                 "Holds the point `at` together and their rotation against each other.",
+                 "Rigid connection at the point `at`: no relative displacement, no relative rotation.",
                  "`fx` ..., `torque`, or `mx` ...",
                  point_joint({}),
                  read_one_point,

@@ -81,7 +81,7 @@ MotionMeasure read_wheel_and_way(const SceneTable &table, const Names &names, Jo
   const BodyRequest *wheel = names.find_body(joint.from.marker);
   if (!turns_about_own_axis(wheel))
     throw table.error("from", "'" + joint.from.marker +
-                                  "' is no rotor or planar body; one that turns about its axis is needed here");
+                                  "' is not a rotor or planar body; this joint needs one that rotates about its axis");
   if (std::abs(dot(joint.axis, wheel->axis)) > 1e-9)
     throw table.error("direction", "must be at right angles to the axis of '" + joint.from.marker + "'");
   if (!moves_along(names, joint.from.marker, joint.axis) && !moves_along(names, joint.to.marker, joint.axis))
@@ -106,8 +106,8 @@ void read_rack(const SceneTable &table, const Names &names, JointRequest &joint)
 std::vector<Key> rolling_keys(const std::vector<Key> &places)
 {
   return joined({places,
-                 {key::number("radius", kind::length, "of the wheel").above_zero(),
-                  key::direction("direction", "of the way, at right angles to the axis of the wheel")
+                 {key::number("radius", kind::length, "radius of the wheel").above_zero(),
+                  key::direction("direction", "direction of the path, perpendicular to the axis of the wheel")
                       .into(&JointRequest::axis)}});
 }
 
@@ -115,27 +115,29 @@ std::vector<Key> rolling_keys(const std::vector<Key> &places)
 
 JointType screw_type()
 {
-  return {"screw", "`to` advances along `axis`, which turns with `from`, by `pitch` per turn of it against `from`.",
+  return {"screw",
+          "Screw: `to` advances along `axis`, which rotates with `from`, by `pitch` per revolution relative to `from`.",
           "`force` on `to`",
           joined({two_places(),
-                  {axis_key(), key::number("pitch", kind::length, "way of one turn; negative: left-handed")}}),
+                  {axis_key(),
+                   key::number("pitch", kind::length, "advance per revolution; negative for a left-handed thread")}}),
           read_screw};
 }
 
 JointType rolling_type()
 {
   return {"rolling",
-          "The wheel `from`, a rotor or planar body, goes along `direction` of `to` by `radius` times its angle, "
-          "without slip; that it stays on its line is another joint (`\"in-plane\"` through its centre) or contact. "
-          "`at_to` lies on the line.",
+          "Rolling without slip: the wheel `from`, a rotor or planar body, moves along `direction` of `to` by `radius` "
+          "times its angle. `at_to` is a point of its path. Another joint (`\"in-plane\"` through its centre) or a "
+          "contact keeps it on the path.",
           "`force` on `from`", rolling_keys(place_on_ground()), read_rolling};
 }
 
 JointType rack_type()
 {
   return {"rack",
-          "`to` moves along `direction`, which turns with it, by `radius` times the angle of `from`, a rotor or planar "
-          "body.",
+          "Rack: `to` moves along `direction`, which rotates with it, by `radius` times the angle of `from`, a rotor "
+          "or planar body.",
           "`force` on `to`", rolling_keys(two_places()), read_rack};
 }
 

@@ -381,7 +381,7 @@ private:
       fail("needs % without an exponent: \"2 %\" is 0.02; write its square as \"(2 %)^2\"");
     const double sign = take("-") ? -1. : 1.;
     if (token().kind != Token::number || token().value != std::floor(token().value))
-      fail("needs a whole number as the exponent of the unit '" + name + "'");
+      fail("needs an integer as the exponent of the unit '" + name + "'");
     const Quantity exponent{sign * tokens_[next_++].value, {}, true, Counts::nothing};
     return at(begin, [&] { return raised(unit_named(name), exponent); });
   }

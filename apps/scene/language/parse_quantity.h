@@ -18,7 +18,7 @@ namespace gestell::apps
  *
  * Units after a number bind more tightly than any operator; "N s/m" is (N s)/m, and "kg m^2" squares only the metre.
  * Ambiguous text is rejected: "N/m s", "1/2 mm", and "3 g" if a parameter is called g.  In place of an operand a
- * parameter has priority over a unit of the same name.  A full list of units is in docs/scene/values.md.
+ * parameter has priority over a unit of the same name.  A full list of units is in docs/reference/scene/values.md.
  *
  * A number per minute or hour is a number of shaft revolutions, as on every name plate, in any notation: "1500 1/min",
  * "1500/min", "1500/(1 min)", "1500 min^-1", "1500 r/min", "1500 rpm".  It is 2 pi 25 rad/s as an angular speed and 25

@@ -98,7 +98,7 @@ const MeasureRequest &Names::measure(const SceneTable &table, const std::string 
   if (const MeasureRequest *found = find_measure(name))
     return *found;
   if (find_body(name) || name.rfind("frame.", 0) == 0)
-    throw table.error(key, "'" + name + "' is no measure; a body or an interface is named by `from`");
+    throw table.error(key, "'" + name + "' is not a measure; a body or an interface is named by `from`");
   std::vector<std::string> valid;
   for (const MeasureRequest &measure : measures_)
     valid.push_back(measure.name);

@@ -29,20 +29,20 @@ Kind stiffness_of(double exponent, bool turns)
 std::vector<Key> contact_keys()
 {
   return {
-      key::number("stiffness", kind::stiffness, "of the contact; in N/m^n a plain number")
+      key::number("stiffness", kind::stiffness, "contact stiffness; in N/m^n as a plain number")
           .on_angle(kind::torsional_stiffness)
           .above_zero(),
-      key::number("exponent", kind::number, "n of the force c d^n; 1.5 after Hertz")
+      key::number("exponent", kind::number, "exponent n of the force c d^n; 1.5 for Hertzian contact")
           .above_zero()
           .by_default(&Clearance::Parameters::exponent),
-      key::number("dissipation", dissipation, "factor of Hunt and Crossley")
+      key::number("dissipation", dissipation, "dissipation factor of Hunt and Crossley")
           .on_angle(torsional_dissipation)
           .from_zero()
           .by_default(&Clearance::Parameters::dissipation),
-      key::number("restitution", kind::number, "share of its speed that a free body keeps, in place of `dissipation`")
+      key::number("restitution", kind::number, "coefficient of restitution of a free body, instead of `dissipation`")
           .as_share()
           .by_default(""),
-      key::number("impact_speed", kind::speed, "at which it keeps that share")
+      key::number("impact_speed", kind::speed, "impact speed at which `restitution` applies")
           .on_angle(kind::angular_speed)
           .above_zero()
           .by_default(""),
@@ -54,21 +54,23 @@ Key sliding_friction_key()
   using Friction = mechanism::SlidingFriction;
   return key::composed(
              "friction", Key::Form::coefficient, kind::number,
-             {key::number("coefficient", kind::number, "while it slides").from_zero().into(&Friction::kinetic),
-              key::number("speed", kind::speed, "at which it is 76 % developed")
+             {key::number("coefficient", kind::number, "friction coefficient while sliding")
+                  .from_zero()
+                  .into(&Friction::kinetic),
+              key::number("speed", kind::speed, "speed at which 76 % of the friction is developed")
                   .above_zero()
                   .by_default(&Friction::speed),
-              key::number("static", kind::number, "from which it falls; with `stribeck_speed`")
+              key::number("static", kind::number, "static friction coefficient; with `stribeck_speed`")
                   .from_zero()
                   .by_default("")
                   .into(&Friction::static_coefficient),
-              key::number("stribeck_speed", kind::speed, "over which it falls")
+              key::number("stribeck_speed", kind::speed, "Stribeck speed of the transition to the kinetic coefficient")
                   .above_zero()
                   .by_default(&Friction::stribeck_speed),
-              key::number("stribeck_exponent", kind::number, "of the fall, 1 or 2")
+              key::number("stribeck_exponent", kind::number, "exponent of the transition, 1 or 2")
                   .above_zero()
                   .by_default(&Friction::stribeck_exponent)},
-             "coefficient of sliding friction, or its table")
+             "coefficient of sliding friction, or a table")
       .from_zero()
       .by_default("none");
 }

@@ -67,11 +67,11 @@ void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::Cub
 std::vector<Key> function_keys(const Kind &x, const Kind &y)
 {
   return {key::formula("function", y, "formula of the argument").by_default("`table`"),
-          key::composed("table", Key::Form::rows, y, {}, "rows of argument and value, joined by a spline")
+          key::composed("table", Key::Form::rows, y, {}, "rows of argument and value, interpolated by a spline")
               .by_default("`function`"),
-          key::number("period", x, "of the argument").above_zero().by_default("none"),
-          key::number("rise", y, "of the value over a period").by_default(0.),
-          key::number("begin", x, "where the formula's period begins").by_default(0.)};
+          key::number("period", x, "period of the argument").above_zero().by_default("none"),
+          key::number("rise", y, "change of the value over a period").by_default(0.),
+          key::number("begin", x, "start of the period of the formula").by_default(0.)};
 }
 
 std::vector<Key> position_function_keys()

@@ -137,10 +137,10 @@ const std::vector<Key> &material_keys()
   static const std::vector<Key> keys = {
       key::number("E", kind::pressure, "Young's modulus").above_zero().into(&fem::Material::E),
       key::number("nu", kind::number, "Poisson's ratio, above -1 and below 0.5").into(&fem::Material::nu),
-      key::number("rho", kind::density, "density; a STEP file may contain it, which a line of the run then says")
+      key::number("rho", kind::density, "density; a STEP file may contain it, which a line of the run then reports")
           .above_zero()
           .into(&fem::Material::rho)
-          .by_default("of a frame: of its STEP file")};
+          .by_default("for a frame that of its STEP file")};
   return keys;
 }
 

@@ -38,26 +38,28 @@ std::shared_ptr<const mechanism::MotionLaw> read_speed(const SceneTable &table, 
 
 std::vector<Key> motion_law_keys()
 {
-  const std::string speed = "constant until the order `brake` of a [switch](switches.md#switches), if there is one, or "
-                            "[ramps](elements.md#profiles) with `acceleration` and `jerk`";
+  const std::string speed = "constant speed until the command `brake` of a [switch](switches.md#switches), if there is "
+                            "one, or [ramps](elements.md#profiles) with `acceleration` and `jerk`";
   return joined(
       {{profile_key("speed", path_profile(), speed)
             .on_angle(profile_key("speed", speed_profile(), speed))
             .by_default("`function` or `table`"),
-        key::number("initial_speed", kind::speed, "before the first ramp").on_angle(kind::angular_speed).by_default(0.),
+        key::number("initial_speed", kind::speed, "speed before the first ramp")
+            .on_angle(kind::angular_speed)
+            .by_default(0.),
         waits_key(),
         key::table(
             "brake",
-            {key::choice("family", {"linear", "cosine", "shaped"}, true, "of the way to zero"),
-             key::number("duration", kind::time, "of the braking, or of each ramp").above_zero(),
+            {key::choice("family", {"linear", "cosine", "shaped"}, true, "profile of the speed to zero"),
+             key::number("duration", kind::time, "duration of braking, or of each ramp").above_zero(),
              key::composed("ramps", Key::Form::tables, kind::number,
-                           {key::number("share", kind::number, "of the speed"),
-                            key::number("delay", kind::time, "from the order").from_zero().by_default(0.)},
-                           "of `\"shaped\"`")
+                           {key::number("share", kind::number, "share of the speed"),
+                            key::number("delay", kind::time, "delay after the command").from_zero().by_default(0.)},
+                           "ramps of `\"shaped\"`")
                  .by_default("none")},
-            "`{ family = \"linear\", duration = \"0.15 s\" }` takes the speed to zero in a straight line, with "
-            "`\"cosine\"` in half a cosine, with `\"shaped\"` in ramps of this duration each, `ramps = [{ share = 0.5, "
-            "delay = 0 }, { share = 0.5, delay = \"1.2 s\" }]`. Its corners are events, `braking_ends` the last")
+            "braking: `{ family = \"linear\", duration = \"0.15 s\" }` reduces the speed to zero linearly, with "
+            "`\"cosine\"` as half a cosine, with `\"shaped\"` in ramps of this duration each, `ramps = [{ share = 0.5, "
+            "delay = 0 }, { share = 0.5, delay = \"1.2 s\" }]`. Corners are events, the last one `braking_ends`")
             .by_default("none")},
        function_keys(kind::time, kind::length)});
 }

@@ -46,13 +46,13 @@ const std::vector<Key> &stage_keys()
 {
   static const std::vector<Key> keys = {
       key::plain("borders", Key::Form::texts,
-                 "events that end a stage, in their order: `\"limiter\"`, the first event of that object behind the "
-                 "border before, or `\"cylinder.braking_ends\"`, the first of that kind"),
-      key::plain("names", Key::Form::texts, "of the stages, one more than borders").by_default("stage 1, stage 2, ..."),
-      key::plain("ringing", Key::Form::texts,
-                 "names of signals in which modes and damping of the last stage are looked for")
+                 "events that end a stage, in order: `\"limiter\"`, the first event of that object after the previous "
+                 "boundary, or `\"cylinder.braking_ends\"`, the first event of that kind"),
+      key::plain("names", Key::Form::texts, "names of the stages, one more than `borders`")
+          .by_default("stage 1, stage 2, ..."),
+      key::plain("ringing", Key::Form::texts, "signals from which modes and damping of the last stage are identified")
           .by_default("none"),
-      key::plain("modes", Key::Form::whole, "of them that are told, at most, the strongest")
+      key::plain("modes", Key::Form::whole, "maximum number of identified modes; the strongest are listed")
           .by_default(&StageRequest::modes)};
   return keys;
 }
@@ -153,15 +153,14 @@ const std::vector<Key> &stress_keys()
 {
   static const std::vector<Key> keys = {
       key::number("at", kind::time, "instant").also({Key::Form::numbers}).by_default("none"),
-      key::plain(
-          "largest", Key::Form::texts,
-          "names of signals at whose largest value stresses are written; `\"stress\"`: when the equivalent stress "
-          "itself is largest anywhere, see `step`")
-          .by_default("`\"stress\"` if nothing else is asked for"),
-      key::plain("smallest", Key::Form::texts, "names of signals, likewise").by_default("none"),
-      key::number("step", kind::time, "between the states among which the largest stress is looked for")
+      key::plain("largest", Key::Form::texts,
+                 "signals at whose maximum stresses are written; `\"stress\"`: at the instant of the largest "
+                 "equivalent stress, see `step`")
+          .by_default("`\"stress\"` if no other instant is requested"),
+      key::plain("smallest", Key::Form::texts, "signals at whose minimum stresses are written").by_default("none"),
+      key::number("step", kind::time, "interval of the states among which the largest stress is searched")
           .above_zero()
-          .by_default("`output.step`, or a five thousandth of the run if that is longer")};
+          .by_default("`output.step`, or 1/5000 of the run if that is longer")};
   return keys;
 }
 
@@ -195,15 +194,15 @@ const std::vector<Key> &output_keys()
 {
   static const std::vector<Key> keys = {
       key::map("signals", kind::number, {},
-               "table `{ F_P = \"rod.force\", x1 = \"-frame.crown.uz\" }`; a leading minus turns the sign. `{ Q4 = { "
-               "signal = "
-               "\"cylinder.force\", from = \"limiter\" } }` counts extremes from the first event of that name on, its "
-               "limit behind a jump included. Or an array of paths, which then are the names")
+               "`{ F_P = \"rod.force\", x1 = \"-frame.crown.uz\" }`; a leading minus changes the sign. With `{ Q4 = { "
+               "signal = \"cylinder.force\", from = \"limiter\" } }` extremes count from the first event of that name, "
+               "including the value after a jump. A list of paths is also accepted; the paths are then the names")
           .also({Key::Form::texts})
           .by_default("none"),
-      key::number("step", kind::time, "between rows of `history.csv`, taken from the dense output where no step ends")
+      key::number("step", kind::time,
+                  "interval between rows of `history.csv`; rows between steps come from the dense output")
           .above_zero()
-          .by_default("the fixed step; with a tolerance a two thousandth of the run")
+          .by_default("the fixed step; with a tolerance 1/2000 of the run")
           .into(&coupling::RunOptions::output_step),
       key::number(
           "from", kind::time,
@@ -211,13 +210,13 @@ const std::vector<Key> &output_keys()
           "there](#a-window-for-results)")
           .also({Key::Form::text})
           .by_default("the start of the run"),
-      key::number("picture_step", kind::time, "between pictures of the motion; 0: none")
+      key::number("picture_step", kind::time, "interval between pictures of the motion; 0: none")
           .from_zero()
-          .by_default("a hundredth of the run")
+          .by_default("1/100 of the run")
           .into(&coupling::RunOptions::picture_step),
       key::truth("allow_large", coupling::RunOptions().allow_large,
-                 "more than 1 GB of history and states, or 20 000 pictures, is refused without it; with it `motion/` "
-                 "has every picture, otherwise at most 100 and 20 MB")
+                 "accept more than 1 GB of history and states, or 20 000 pictures, which is otherwise an error; write "
+                 "every picture to `motion/`, otherwise at most 100 and 20 MB")
           .into(&coupling::RunOptions::allow_large),
       key::table("stress", {}, "stresses, [see there](#stress)").by_default("none"),
       key::table("stages", {}, "parts of the run between events, [see there](#stages)").by_default("none")};
@@ -227,7 +226,7 @@ const std::vector<Key> &output_keys()
 const std::vector<Key> &watched_signal_keys()
 {
   static const std::vector<Key> keys = {key::plain("signal", Key::Form::text, "path of the signal, `\"rod.force\"`"),
-                                        key::plain("from", Key::Form::text, "event from which on extremes count")};
+                                        key::plain("from", Key::Form::text, "event after which extremes count")};
   return keys;
 }
 
@@ -261,15 +260,15 @@ void read_output(const SceneTable &scene, Scene &result)
     {
       for (const SignalRequest &other : result.signals)
         if (other.name == path)
-          throw table.error("signals", "'" + path + "' stands in the list twice");
+          throw table.error("signals", "'" + path + "' is in the list twice");
       result.signals.push_back({path, path, table.place("signals"), ""});
     }
   else if (const auto signals = table.optional_table("signals"))
     for (const auto &name : signals->keys())
     {
       if (name.empty() || name.find_first_of(",\"\n[]") != std::string::npos || name == "t")
-        throw signals->error(name, "is no name for a signal: it heads a column of history.csv, so it must not be 't' "
-                                   "or contain commas, quotes or brackets");
+        throw signals->error(name, "is not a valid name for a signal: it heads a column of history.csv, so it must not "
+                                   "be 't' or contain commas, quotes or brackets");
       if (!signals->is_table(name))
       {
         result.signals.push_back({name, signals->text(name), signals->place(name), ""});

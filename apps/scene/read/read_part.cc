@@ -142,22 +142,22 @@ void read_rotor(const SceneTable &table, BodyRequest &body)
 std::vector<Key> part_keys()
 {
   return {key::plain("cad", Key::Form::file,
-                     "`.step .stp .brep .geo .msh .inp`, or a closed surface of triangles `.stl`. Several solids are "
-                     "summed; they must not overlap")
-              .by_default("mass and inertia are given"),
-          key::number("unit", kind::length, "length unit of a file that has none, `\"1 mm\"`; a `.stl` needs it")
+                     "CAD or mesh file: `.step .stp .brep .geo .msh .inp`, or a closed triangulated surface `.stl`. "
+                     "Several solids are added; they must not overlap")
+              .by_default("none: mass and inertia are given"),
+          key::number("unit", kind::length, "length unit of a file without one, `\"1 mm\"`; required for `.stl`")
               .above_zero()
               .by_default("of the file"),
           material_key().by_default("`density` or `mass`"),
-          key::number("density", kind::density, "in place of `material`; one that no solid has is refused")
+          key::number("density", kind::density, "density, instead of `material`; values that no solid has are an error")
               .above_zero()
               .by_default("of the material"),
           key::table("placement",
-                     {key::vector("origin", kind::length, "where the file's origin lies").by_default("[0, 0, 0]"),
-                      key::direction("axis", "about which the file's coordinates are turned").by_default("not turned"),
-                      key::number("angle", kind::angle, "by which they are turned").by_default("not turned")},
-                     "turned about `axis` through the file's origin, which then is moved to `origin`")
-              .by_default("the file's coordinates are the scene's, in the position the scene describes")};
+                     {key::vector("origin", kind::length, "position of the origin of the file").by_default("[0, 0, 0]"),
+                      key::direction("axis", "axis of rotation of the file's coordinates").by_default("no rotation"),
+                      key::number("angle", kind::angle, "angle of rotation").by_default("no rotation")},
+                     "placement: rotation about `axis` through the origin of the file, which is then moved to `origin`")
+              .by_default("the coordinates of the file are those of the scene in the reference configuration")};
 }
 
 coupling::Placement read_placement(const SceneTable &table)

@@ -45,10 +45,10 @@ Key profile_key(const std::string &name, const ProfileKeys &keys, const std::str
 {
   return key::composed(
       name, Key::Form::profile, keys.level,
-      {key::number("at", kind::time, "beginning of the ramp, not before the end of the ramp before it"),
-       key::number("to", keys.level, "level at its end"),
-       key::number(keys.rate_key, keys.rate, "largest rate").above_zero().by_default("a jump"),
-       key::number(keys.rate_of_rate_key, keys.rate_of_rate, "largest rate of the rate")
+      {key::number("at", kind::time, "start of the ramp, not before the end of the previous ramp"),
+       key::number("to", keys.level, "level at the end of the ramp"),
+       key::number(keys.rate_key, keys.rate, "largest rate of change").above_zero().by_default("a jump"),
+       key::number(keys.rate_of_rate_key, keys.rate_of_rate, "largest rate of change of the rate")
            .above_zero()
            .by_default("corners")},
       meaning);
@@ -64,7 +64,7 @@ Key course_key(const std::string &name, const ProfileKeys &keys, const std::stri
 
 Key waits_key()
 {
-  return key::truth("waits", false, "stays at its first level until a switch tells it \"start\"");
+  return key::truth("waits", false, "wait at the initial level until a switch sends \"start\"");
 }
 
 mechanism::Profile read_profile(const SceneTable &table, const std::string &key, const ProfileKeys &keys, double from)
@@ -127,8 +127,8 @@ mechanism::CommandedProfile read_free_course(const SceneTable &table, const std:
 Key or_input(Key course)
 {
   course.keys.push_back(key::plain("input", Key::Form::text,
-                                   "name of an input that [other programs](../fmu.md) set; by itself it stays at the "
-                                   "initial level")
+                                   "name of an input for [other programs](../../how_to/fmu.md); without co-simulation "
+                                   "it stays at the initial level")
                             .by_default("none"));
   return course;
 }

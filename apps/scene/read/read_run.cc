@@ -147,7 +147,7 @@ std::vector<Key> parameter_keys()
   for (const IntegrationMethod *method : coupling::integration_methods())
     for (const MethodParameter &parameter : method->parameters())
     {
-      const std::string of = "of `" + method->name() + "`: " + parameter.meaning;
+      const std::string of = "for `" + method->name() + "`: " + parameter.meaning;
       if (parameter.choices.empty())
         keys.push_back(
             key::number(parameter.name, kind::number, of + ", " + parameter.range).by_default(parameter.fallback));
@@ -166,46 +166,42 @@ const std::vector<Key> &run_keys()
   const Run                     run;
   const Method                  own;
   static const std::vector<Key> keys = joined(
-      {{key::choice(
-            "method", method_names(), true,
-            "integrator; in modes (`reduction.method = \"modal\"`) `central-difference` unless another is given"),
-        key::number(
-            "step", kind::time,
-            "fixed step; with `tolerance` the largest step, by default a fiftieth of the run and an eighth of "
-            "the shortest period of a load. Central differences in modes take a quarter of their limit by themselves")
+      {{key::choice("method", method_names(), true,
+                    "integrator; with `reduction.method = \"modal\"` the default is `central-difference`"),
+        key::number("step", kind::time,
+                    "fixed step; with `tolerance` the largest step, by default at most 1/50 of the run and 1/8 of the "
+                    "shortest load period. Central differences with `reduction.method = \"modal\"` use a quarter of "
+                    "their stability limit")
             .above_zero()
             .by_default("by `tolerance`"),
-        key::number(
-            "tolerance", kind::number,
-            "of the local error, relative to the motion, 1e-13 and above: the step is controlled; 0: it is not. "
-            "`bdf` and `exact` with `\"collocation\"`")
+        key::number("tolerance", kind::number,
+                    "tolerance of the local error, relative to the motion, at least 1e-13: the step is controlled; 0: "
+                    "fixed step. For `bdf`, and `exact` with `\"collocation\"`")
             .from_zero()
             .by_default("fixed step"),
-        key::number("begin", kind::time, "time of the start").by_default(&Run::begin),
-        key::number("end", kind::time, "time of the end, at which the last step is cut").into(&Run::end),
-        key::truth(
-            "events", run.events,
-            "contacts, fracture, sticking and other switches are located to rounding and the integration restarts "
-            "there with full order; `false`: steps pass over them, and they are listed afterwards. Not with dry "
-            "friction, "
-            "which may then hold more than its limit: a warning says so")
+        key::number("begin", kind::time, "start time").by_default(&Run::begin),
+        key::number("end", kind::time, "end time; the last step is shortened to it").into(&Run::end),
+        key::truth("events", run.events,
+                   "contacts, fracture, sticking and other events are located to rounding, and the integration "
+                   "restarts there at full order. `false`: events are not located but listed after the step; with dry "
+                   "friction, which may then exceed its limit, a warning is printed")
             .into(&Run::events),
-        key::plain("order", Key::Form::whole, "of `bdf`, 1 to 6; of `exact` with `\"collocation\"`, 2, 4, 6 or 8")
-            .by_default("2, with `tolerance` 5; of `exact` 4")},
+        key::plain("order", Key::Form::whole, "order: `bdf` 1 to 6; `exact` with `\"collocation\"` 2, 4, 6 or 8")
+            .by_default("2, with `tolerance` 5; for `exact` 4")},
        parameter_keys(),
-       {key::truth("force_unstable", run.force_unstable, "runs although a mode grows with this method and step")
+       {key::truth("force_unstable", run.force_unstable, "run although a mode grows with this method and step")
             .into(&Run::force_unstable),
         key::plain("max_halvings", Key::Form::whole,
-                   "how often the step is halved where Newton's iteration fails, 0 to 40")
+                   "maximum number of step halvings after a failed Newton iteration, 0 to 40")
             .by_default(&Method::max_halvings),
-        key::number(
-            "newton_tolerance", kind::number,
-            "relative, 1e-13 and above; `bdf` with a `tolerance` chooses its own. Where it is not given, fixed "
-            "steps of `bdf` leave up to 1e-3 of the local error of the step, and `exact` of order 6 and 8 meets "
-            "forces so much closer that its own error stands out")
+        key::number("newton_tolerance", kind::number,
+                    "relative tolerance of the Newton iteration, at least 1e-13; `bdf` with a `tolerance` chooses its "
+                    "own. Without it, fixed steps of `bdf` iterate to 1e-3 of the local error of the step, and `exact` "
+                    "of order 6 and 8 iterates until the error of the iteration is below that of the method")
             .above_zero()
             .by_default(own.newton.tolerance),
-        key::truth("energy", run.energy, "keep the energy balance; costs a few products with M, B, C in every step")
+        key::truth("energy", run.energy,
+                   "compute the energy balance, at the cost of a few products with M, B, C in every step")
             .into(&Run::energy)}});
   return keys;
 }

@@ -85,7 +85,8 @@ void check_known(const SceneTable &table, const ElementRequest &element, const s
 {
   const auto known = command_names(*element.element);
   if (std::find(known.begin(), known.end(), order) == known.end())
-    throw table.error("order", "'" + element.name + "' knows no order '" + order + "'; it obeys " + listed(known));
+    throw table.error("order", "'" + element.name + "' does not accept the command '" + order + "'; it accepts " +
+                                   listed(known));
 }
 
 /// Refuses things that obey no orders, with the reason.
@@ -96,10 +97,9 @@ void refuse_unmoved(const SceneTable &table, const std::string &name, const std:
       throw table.error("tell", "'" + name + "' is a mass, which cannot be switched");
   for (const JointRequest &joint : scene.joints)
     if (joint.name == name && (order == "on" || order == "off"))
-      throw table.error(
-          "order",
-          "'" + name + "' is " + (joint.compliance ? "a compliant" : "an ideal") +
-              " joint, which always holds; where it shall let go, use a \"clutch\" or a \"spring-damper\" instead");
+      throw table.error("order",
+                        "'" + name + "' is " + (joint.compliance ? "a compliant" : "an ideal") +
+                            " joint, which cannot be released; use a \"clutch\" or a \"spring-damper\" instead");
 }
 
 /// A name that no element has must be that of a joint whose motion obeys the order.
@@ -110,11 +110,12 @@ void check_joint(const SceneTable &table, const std::string &name, const std::st
   for (const JointRequest &joint : scene.joints)
   {
     if (joint.name == name && !joint.law)
-      throw table.error("tell", "'" + name + "' is a joint without a 'motion', which obeys no orders");
+      throw table.error("tell", "'" + name + "' is a joint without a 'motion', which accepts no commands");
     if (joint.name == name && !knows(joint.law->commands()))
-      throw table.error("order", "the motion of '" + name + "' knows no order '" + order +
-                                     (joint.law->commands().empty() ? "'; it obeys none, only motions at a 'speed' do"
-                                                                    : "'; it obeys " + listed(joint.law->commands())));
+      throw table.error("order",
+                        "the motion of '" + name + "' does not accept the command '" + order +
+                            (joint.law->commands().empty() ? "'; only motions with a 'speed' accept commands"
+                                                           : "'; it accepts " + listed(joint.law->commands())));
     if (joint.name == name)
       return;
     if (joint.law && knows(joint.law->commands()))
@@ -132,7 +133,7 @@ void check_joint(const SceneTable &table, const std::string &name, const std::st
       obeying.push_back(spring.name);
   throw table.error("tell",
                     "there is no element or joint '" + name + "'" +
-                        (obeying.empty() ? ", and nothing that obeys '" + order + "'" : suggestion(name, obeying)));
+                        (obeying.empty() ? ", and nothing that accepts '" + order + "'" : suggestion(name, obeying)));
 }
 
 std::vector<coupling::SwitchOrder> read_order(const SceneTable &table, Scene &scene)
@@ -191,7 +192,7 @@ void read_crossing(const SceneTable &table, SwitchRequest &own)
       own.request.crossing = crossing;
     }
   if (given.empty())
-    throw table.error("needs 'above', 'below' or 'crosses', the value at which it is thrown");
+    throw table.error("needs 'above', 'below' or 'crosses', the threshold at which it triggers");
   own.level         = table.quantity(given);
   own.request.level = own.level.value;
 }
@@ -215,7 +216,7 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
     if (!own.request.repeat)
       throw table.error(
           "hysteresis",
-          "is how far the signal comes back before the switch is thrown again; it goes with repeat = true");
+          "is the distance that the signal must return before the switch triggers again; it needs repeat = true");
     if (own.request.hysteresis < 0.)
       throw table.error("hysteresis", "needs a value of zero or more");
   }
@@ -223,8 +224,7 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
     throw table.error("orders", "says the same as 'tell' and 'order'; give one of them");
   own.request.ends = table.text("ends", "");
   if (table.has("ends") && own.request.ends.empty())
-    throw table.error("ends",
-                      "is empty; say what it means that the signal has passed the value, such as \"the crane tips\"");
+    throw table.error("ends", "is empty; state what the crossing means, such as \"the crane tips\"");
   const bool only_ends = table.has("ends") && !table.has("tell") && !table.has("order") && !table.has("orders");
   if (!table.has("orders") && !only_ends)
     own.request.orders = read_order(table, scene);
@@ -232,7 +232,7 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
     for (const auto &order : read_order(part, scene))
       own.request.orders.push_back(order);
   if (own.request.orders.empty() && !only_ends)
-    throw table.error("orders", "is empty; give orders such as [{ tell = \"motor\", order = \"off\" }]");
+    throw table.error("orders", "is empty; give commands such as [{ tell = \"motor\", order = \"off\" }]");
   return own;
 }
 
@@ -252,7 +252,7 @@ void check_chain(const SceneTable &table, const std::vector<SwitchRequest> &swit
     if (name.empty())
       return;
   }
-  throw table.error("after", "the switches wait for each other in a circle, so that none would ever watch");
+  throw table.error("after", "the switches wait for each other in a circle, so that none would ever be armed");
 }
 
 } // namespace
@@ -266,20 +266,21 @@ std::vector<Key> order_keys()
   const ProfileKeys level = level_profile(kind::number, "1"), speed = path_profile();
   const auto        limit = [](const std::string &name, const Kind &kind, const std::string &meaning)
   { return key::number(name, kind, meaning).above_zero().by_default("a jump"); };
-  return {key::plain("tell", Key::Form::texts, "name of an element or joint, or several").by_default("`orders`"),
-          key::plain("order", Key::Form::text,
-                     "the command: `\"on\"`, `\"off\"`, `\"set\"`, `\"brake\"`, `\"hold\"`, `\"start\"`")
-              .by_default("`orders`"),
-          key::plain("to", Key::Form::quantity, "of `\"set\"`: the level").by_default("demanded of `\"set\"`"),
-          limit("rate", level.rate, "largest rate of the way to the level, in its unit"),
-          limit("rate_of_rate", level.rate_of_rate, "largest rate of the rate"),
-          limit("acceleration", speed.rate, "of a speed").on_angle(speed_profile().rate),
-          limit("jerk", speed.rate_of_rate, "of a speed").on_angle(speed_profile().rate_of_rate)};
+  return {
+      key::plain("tell", Key::Form::texts, "target: name of an element or joint, or several").by_default("`orders`"),
+      key::plain("order", Key::Form::text,
+                 "the command: `\"on\"`, `\"off\"`, `\"set\"`, `\"brake\"`, `\"hold\"`, `\"start\"`")
+          .by_default("`orders`"),
+      key::plain("to", Key::Form::quantity, "level for `\"set\"`").by_default("required for `\"set\"`"),
+      limit("rate", level.rate, "largest rate of change towards the level, in its unit"),
+      limit("rate_of_rate", level.rate_of_rate, "largest rate of change of the rate"),
+      limit("acceleration", speed.rate, "largest acceleration, for a speed").on_angle(speed_profile().rate),
+      limit("jerk", speed.rate_of_rate, "largest jerk, for a speed").on_angle(speed_profile().rate_of_rate)};
 }
 
 Key crossing_key(const std::string &name, const std::string &meaning)
 {
-  return key::plain(name, Key::Form::quantity, meaning).by_default("one of the three");
+  return key::plain(name, Key::Form::quantity, meaning).by_default("one of the three is required");
 }
 
 } // namespace
@@ -287,29 +288,31 @@ Key crossing_key(const std::string &name, const std::string &meaning)
 const std::vector<Key> &switch_keys()
 {
   static const std::vector<Key> keys = joined(
-      {{key::plain("when", Key::Form::text, "a signal, or `\"t\"`, the time"),
-        crossing_key("above", "value, with its unit, above which the signal rises; thrown at once where it lies "
-                              "above when the switch begins to watch"),
-        crossing_key("below", "value below which it falls, likewise"),
-        crossing_key("crosses",
-                     "value that it crosses either way; it must come from the side on which it lies at first")},
+      {{key::plain("when", Key::Form::text, "signal, or `\"t\"`, the time"),
+        crossing_key("above", "threshold, with its unit, that the signal exceeds; the switch triggers at once if the "
+                              "signal is already above it when the switch is armed"),
+        crossing_key("below", "threshold below which the signal falls; the switch triggers at once if the signal is "
+                              "already below it when the switch is armed"),
+        crossing_key(
+            "crosses",
+            "threshold that the signal crosses in either direction, starting from its side when the switch is armed")},
        order_keys(),
        {key::composed("orders", Key::Form::tables, kind::number, order_keys(),
-                      "several orders at the same instant: `[{ tell = \"motor\", order = \"off\" }, { tell = "
+                      "several commands at the same instant: `[{ tell = \"motor\", order = \"off\" }, { tell = "
                       "\"brake\", order = \"on\" }]`")
             .by_default("`tell` and `order`"),
-        key::plain("ends", Key::Form::text,
-                   "the run ends at the orders with this statement, such as `\"the crane tips\"`, and exit code 3; "
-                   "what was computed is kept")
-            .by_default("it goes on"),
-        key::number("delay", kind::time, "from the crossing to the orders")
+        key::plain(
+            "ends", Key::Form::text,
+            "ends the run with this statement, such as `\"the crane tips\"`, and exit code 3; results so far are kept")
+            .by_default("the run continues"),
+        key::number("delay", kind::time, "delay from the crossing to the command")
             .from_zero()
             .by_default(&coupling::Switch::delay),
-        key::named("after", "switch from whose orders on it watches").by_default("always"),
-        key::truth("repeat", false, "thrown every time").into(&coupling::Switch::repeat),
+        key::named("after", "switch whose command arms this one").by_default("always"),
+        key::truth("repeat", false, "trigger at every crossing").into(&coupling::Switch::repeat),
         key::plain("hysteresis", Key::Form::quantity,
-                   "with `repeat`: by so much the signal must first come back, or with `crosses` go away from "
-                   "the value to either side")
+                   "with `repeat`: the signal must first return past the threshold by this amount, or with `crosses` "
+                   "move away from it in either direction")
             .by_default(0.)}});
   return keys;
 }

@@ -46,12 +46,13 @@ std::vector<Key> wheel_keys(const std::string &wheel)
 {
   return {
       key::named("from", "body with one " + wheel + ": a rotor or a planar body; at rest an interface or the ground"),
-      key::named("to", "body with the other"),
+      key::named("to", "body with the other " + wheel),
       key::vector("at_from", kind::length, "centre of the " + wheel + " on `from`, in the initial configuration")
           .by_default("`position` of the body"),
-      key::vector("at_to", kind::length, "the same on `to`").by_default("`position` of the body"),
-      key::direction("axis", "of both, which are parallel; left is seen from `from` towards `to` with it pointing "
-                             "to the viewer")};
+      key::vector("at_to", kind::length, "centre of the " + wheel + " on `to`, in the initial configuration")
+          .by_default("`position` of the body"),
+      key::direction("axis", "common axis direction; left is the left-hand side when looking from `from` to `to` with "
+                             "the axis pointing to the viewer")};
 }
 
 WheelPair read_wheels(const SceneTable &table, const Names &names, const std::string &wheel)

@@ -44,8 +44,8 @@ std::string stator_of(const SceneTable &table, const Names &names, const BodyReq
     throw table.error("to", "'" + stator + "' is a point, which has no rotation; name what else holds the motor");
   if (body && body->kind == coupling::BodyKind::rigid)
     throw table.error("to", "'" + stator +
-                                "' is a rigid body, whose angle is no coordinate; put a rotor between, which a joint "
-                                "of type \"rigid\" holds to it");
+                                "' is a rigid body, whose angle is not a coordinate; add a rotor and connect it to the "
+                                "body by a joint of type \"rigid\"");
   return stator;
 }
 
@@ -118,27 +118,28 @@ RelativeMotion read_displacement(const SceneTable &table, const Names &names)
 std::vector<Key> motion_keys()
 {
   return {
-      key::named("from", "body, frame.INTERFACE or place: the element acts on u = motion(from) - motion(to)")
+      key::named("from", "body, frame.INTERFACE or marker; the element acts on u = motion(from) - motion(to)")
           .by_default("`on`"),
-      key::named("to", "the other one").by_default("ground"),
-      key::direction("direction", "u is the displacement along it").by_default("axis of the slider, if one is"),
-      key::direction("about", "u is the angle about it").by_default("axis of the rotor, if one is"),
-      key::vector("at_from", kind::length, "point of `from` whose displacement counts, as described").by_default(""),
-      key::vector("at_to", kind::length, "the same of `to`").by_default(""),
-      key::named("on", "measure that is u, in place of `from` and `to`").by_default("`from`"),
+      key::named("to", "the other body, frame.INTERFACE or marker").by_default("ground"),
+      key::direction("direction", "direction of the displacement u").by_default("axis of the slider, if there is one"),
+      key::direction("about", "axis of the angle u").by_default("axis of the rotor, if there is one"),
+      key::vector("at_from", kind::length, "point of `from` whose displacement counts, in the reference configuration")
+          .by_default(""),
+      key::vector("at_to", kind::length, "point of `to`, in the reference configuration").by_default(""),
+      key::named("on", "measure used as u, instead of `from` and `to`").by_default("`from`"),
   };
 }
 
 std::vector<Key> load_motion_keys()
 {
   return joined({motion_keys(),
-                 {key::named("carried_by", "body of `from`, with which the direction turns; without `to`")
+                 {key::named("carried_by", "body of `from` with which the direction rotates; without `to`")
                       .by_default("the direction is constant")}});
 }
 
 std::vector<Key> shaft_keys()
 {
-  return {key::named("on", "rotor, planar body or measure that is an angle, which the torque turns"),
+  return {key::named("on", "rotor, planar body, or measure that is an angle, on which the torque acts"),
           key::named("to", "body or frame.INTERFACE that carries the stator").by_default("carrier of the rotor")};
 }
 

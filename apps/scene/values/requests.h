@@ -129,7 +129,8 @@ struct MeshRequest
   double  pressure_angle = 0.; ///< [rad], negative: the other flank is in contact
 };
 
-/// A scalar of the relative motion of two points, or a sum of terms, optionally minus a function; docs/scene/joints.md.
+/// A scalar of the relative motion of two points, or a sum of terms, optionally minus a function;
+/// docs/reference/scene/joints.md.
 struct MeasureRequest
 {
   std::string                         name;

@@ -17,7 +17,7 @@ namespace
 namespace fs = std::filesystem;
 
 const char *const first_line = "gestell checkpoint 1";
-const char *const way_out    = "; run it anew, without --resume";
+const char *const way_out    = "; start it again without --resume";
 
 [[noreturn]] void refuse(const fs::path &file, const std::string &why)
 {
@@ -50,7 +50,7 @@ std::string read_checkpoint(const fs::path &file, const std::vector<KeyPart> &ke
     refuse(file, "is not there: no run of this scene was stopped in that folder, or it came to its end");
   std::string line;
   if (!std::getline(in, line) || line != first_line)
-    refuse(file, "is no checkpoint of this program");
+    refuse(file, "is not a checkpoint of this program");
   for (const KeyPart &part : key)
     if (!std::getline(in, line))
       refuse(file, "is damaged");

@@ -128,8 +128,9 @@ void require_portable(const Scene &scene)
     throw std::invalid_argument(scene.reduction.options.place +
                                 ": in an FMU the machine does not move in its modes; leave out the superposition");
   if (scene.start.periodic)
-    throw std::invalid_argument(scene.start.place + ": an FMU does not look for periodic motions; give the start by "
-                                                    "rule = \"given\", \"static\" or \"steady\"");
+    throw std::invalid_argument(
+        scene.start.place +
+        ": an FMU does not search for periodic motions; give the start by rule = \"given\", \"static\" or \"steady\"");
   if (frame_path(scene) == FramePath::sparse)
     throw std::invalid_argument(scene.frame.place + ": the frame is not reduced; give [reduction] a method that makes "
                                                     "a reduced frame, such as \"craig-bampton\"");

@@ -110,7 +110,7 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
                                                                            above, steps * key.step)
                                               : coupling::frame_derivative(frame, below, above, steps * key.step);
     key.reported.frame = "differences of two reductions at " + percent(anew ? of_meshes : of_matrices) +
-                         (anew ? " more and less, each meshed anew" : " more and less");
+                         (anew ? " more and less, each meshed again" : " more and less");
     constexpr double rough = 0.05; // of a difference of frames: larger errors are reported
     if (derivative.curvature > rough)
       warning = "derivatives by " + key.reported.key + " come from " + key.reported.frame +

@@ -60,11 +60,11 @@ void refuse_settings(const std::string &key, const std::string &table)
                                                               {"output", "what is written"},
                                                               {"reduction", "how the frame is reduced"}};
   if (const auto found = settings.find(table); found != settings.end())
-    refuse(key, "this entry says " + found->second +
+    refuse(key, "this key sets " + found->second +
                     "; a run has no derivative by it. Name a parameter "
                     "(parameters.NAME) or a number of a body, an element, a load or a joint");
   if (table == "run" && key != "run.end")
-    refuse(key, "this entry says how the run is integrated; a run has no derivative by it. Name a parameter "
+    refuse(key, "this key sets how the run is integrated; a run has no derivative by it. Name a parameter "
                 "(parameters.NAME) or a number of a body, an element, a load or a joint");
 }
 
@@ -100,8 +100,7 @@ Quantity value_of(const std::string &key, const SceneNode &node, const Parameter
   catch (const std::invalid_argument &)
   {
     refuse(key, node.place.text() + ": " + described(node) +
-                    " is no number, and nothing changes by little with it; name "
-                    "an entry that is one, as \"40 mm\"");
+                    " is not a number, and nothing changes by little with it; name an entry that is one, as \"40 mm\"");
   }
 }
 
@@ -184,8 +183,7 @@ std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &lis
 {
   if (trimmed(list).empty())
     throw std::invalid_argument(
-        "--sensitivities needs entries of the scene, such as parameters.c_P,parameters.s_cl, or "
-        "all; it is empty");
+        "--sensitivities needs scene keys, such as parameters.c_P,parameters.s_cl, or all; it is empty");
   const Parameters         parameters(root.find("parameters"));
   std::vector<std::string> keys;
   if (trimmed(list) == "all")

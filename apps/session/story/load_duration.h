@@ -31,7 +31,7 @@ bool is_tool(const mechanism::Element &element);
  *
  *     factor = |sin(pi tau/T) / (pi tau/T)|,     E = 1/2 (factor u dF / omega)^2.
  *
- * Source: response of an undamped oscillator to a ramp; docs/press.md (2).
+ * Source: response of an undamped oscillator to a ramp; docs/how_to/case_press.md (2).
  */
 double fall_factor(double fall_over_period);
 

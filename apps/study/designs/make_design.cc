@@ -35,7 +35,7 @@ Design listed_design(const DesignRequest &request, const std::vector<StudyVariab
   if (request.list.rows() == 0)
     throw std::invalid_argument("study: design list: it has no runs");
   if (!request.list.allFinite())
-    throw std::invalid_argument("study: design list: a value is no number");
+    throw std::invalid_argument("study: design list: a value is not a number");
   Design design;
   design.type   = "list";
   design.points = coded_points(request.list, variables);

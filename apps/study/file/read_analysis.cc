@@ -16,7 +16,7 @@ int at_least(const SceneTable &table, const std::string &key, int least, int oth
 {
   const int value = table.has(key) ? table.whole(key) : otherwise;
   if (value < least)
-    throw table.error(key, "needs a whole number from " + std::to_string(least) + ", got " + std::to_string(value));
+    throw table.error(key, "needs an integer from " + std::to_string(least) + ", got " + std::to_string(value));
   return value;
 }
 

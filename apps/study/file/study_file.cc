@@ -147,8 +147,8 @@ void check_name(const std::string &name, const SceneTable &table, std::vector<st
   static const std::vector<std::string> columns{"run", "status", "cpu_s"};
   if (!is_identifier(name) || is_reserved_name(name))
     throw table.error("'" + name +
-                      "' is no name for a column: it consists of letters, digits and underscores, begins "
-                      "with no digit and is no function of formulas; choose another name");
+                      "' is not a valid name for a column: it consists of letters, digits and underscores, does not "
+                      "begin with a digit and is not a function of formulas; choose another name");
   if (std::find(columns.begin(), columns.end(), name) != columns.end())
     throw table.error("'" + name + "' is a column of runs.csv already; choose another name");
   if (std::find(names.begin(), names.end(), name) != names.end())

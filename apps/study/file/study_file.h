@@ -29,7 +29,7 @@ struct StudyFile
   std::string                   path{}, name{}, description{};
   std::string                   scene{};       ///< path of the scene
   std::string                   scene_place{}; ///< where the study names it
-  std::vector<SceneNode::Entry> settings{};    ///< entries of the scene that hold in place of its own
+  std::vector<SceneNode::Entry> settings{};    ///< keys that replace those of the scene
   std::vector<RunParameter>     measures{};
   std::vector<std::string>      overrides{}; ///< of the scene, from the command line
   std::vector<VariableRequest>  variables{};

@@ -9,14 +9,14 @@
 namespace gestell::apps
 {
 
-/// An entry of the scene that a study varies, as its file tells it.
+/// A scene key that a study varies, as given in its file.
 struct VariableRequest
 {
   StudyVariable            variable;
   std::vector<std::string> keys{};    ///< all that take its value, variable.key the first
   std::vector<SceneNode>   choices{}; ///< of a variable with choices: what the words stand for
   std::string              place{};
-  std::string              folder{};  ///< where paths among its words start
+  std::string              folder{}; ///< where paths among its words start
 
   /// As a value of the scene is written: 900 kN/mm, linear, true.
   std::string text(double level) const { return variable.text(level); }
@@ -26,10 +26,10 @@ struct VariableRequest
 };
 
 /// Takes the unit of a value for that of the variable, if it has none yet.
-/// @throws std::invalid_argument with the place of the value for what is no number, and for another unit
+/// @throws std::invalid_argument with the place of the value for a value that is not a number, and for another unit
 double in_unit(const SceneNode &value, StudyVariable &variable, const std::string &key);
 
-/// A number, with a unit behind it or not.
+/// A number, with or without a unit.
 bool starts_with_number(const SceneNode &value);
 
 } // namespace gestell::apps

@@ -51,7 +51,7 @@ double objective_of(const std::vector<Goal> &goals, const Eigen::VectorXd &value
 /// The sum's derivatives by the variables; derivatives of outputs [outputs x variables].
 Eigen::VectorXd objective_gradient(const std::vector<Goal> &goals, const Eigen::MatrixXd &derivatives);
 
-/// The largest part of its size by which an output breaks a limit; 0 if all are kept, infinite if it is no number.
+/// The largest part of its size by which an output breaks a limit; 0 if all are kept, infinite if it is not a number.
 double violation_of(const std::vector<Limit> &limits, const Eigen::VectorXd &values);
 
 /// @throws std::invalid_argument for a task without goals, with outputs that are not there, weights, scales or limits

@@ -8,7 +8,7 @@
 namespace gestell::apps
 {
 
-// Sections of the report on a study that tell what was looked for, as HTML; empty where a study did not ask.
+// Sections of the report on a study about optimum, front and scatter, as HTML; empty if not requested.
 
 /// Where the optimum lies, what it gains, whether a run confirms it, and the searches.
 std::string optimum_section(const StudyFindings &findings);

@@ -155,11 +155,11 @@ std::string predicted_chart(const ResponseSurface &surface, const std::vector<in
     left_out.notes.push_back(note);
   }
   Chart chart;
-  chart.title                 = surface.output.name + ", foretold against computed";
+  chart.title                 = surface.output.name + ", predicted against computed";
   chart.width                 = 400.;
   chart.height                = 340.;
   chart.x.label               = axis.head() + ", computed";
-  chart.y.label               = axis.head() + ", foretold";
+  chart.y.label               = axis.head() + ", predicted";
   chart.x                     = gestell::apps::fitted(chart.x, axis.shown(surface.computed.minCoeff()),
                                                       axis.shown(surface.computed.maxCoeff()), 0.06);
   chart.panels.front().curves = {diagonal(chart.x.begin, chart.x.end), left_out, fitted};

@@ -34,7 +34,7 @@ std::string overview(const StudyFindings &findings)
   double            cpu    = 0.;
   for (const StudyRun &run : table.runs)
     cpu += run.cpu_s;
-  HtmlTable variables({"variable", "entry of the scene", "#from", "#to"});
+  HtmlTable variables({"variable", "scene key", "#from", "#to"});
   for (const StudyVariable &variable : table.variables)
   {
     const ShownAxis axis = shown_axis(variable);

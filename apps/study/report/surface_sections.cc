@@ -105,7 +105,7 @@ std::string quality_table(const StudyFindings &findings)
 std::string quality_words(const StudyFindings &findings)
 {
   const bool repeats = findings.surfaces.front().quality.pure_error_dof > 0;
-  return std::string("<p class=\"soft\">Predicted R²: each run foretold by the surface of all others. ") +
+  return std::string("<p class=\"soft\">Predicted R²: each run predicted by the surface of all others. ") +
          (repeats ? "Lack of fit compares what the surface leaves with what repeated runs differ by; runs of a program "
                     "repeat "
                     "exactly (F = ∞), so all it leaves is lack of fit."
@@ -246,8 +246,8 @@ std::string effects_section(const StudyFindings &findings, Pictures &pictures)
                         effect_picture(findings.surfaces[i], middle_of(findings, findings.surfaces[i])), pictures)
                 : unchanged_note(findings.surfaces[i]);
   return section("effects", "Effects",
-                 "<p>By the surfaces: each variable goes over its range, the others stay in the middle. The value in "
-                 "the middle is that of the surface, beside it that of the run there, if one was made.</p>\n" +
+                 "<p>By the surfaces: each variable covers its range, the others stay at their midpoints. The value "
+                 "at the midpoint is that of the surface, next to it that of the run there, if one was made.</p>\n" +
                      html + left_out_note(findings) + shares_table(findings));
 }
 

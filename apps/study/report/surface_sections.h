@@ -8,13 +8,13 @@
 namespace gestell::apps
 {
 
-// Sections of the report on a study that tell of its surfaces, as HTML; their pictures are added to `pictures`.  Empty
-// without surfaces.
+// Sections of the report on a study about its surfaces, as HTML; their pictures are added to `pictures`.  Empty without
+// surfaces.
 
 /// Tornado of each output, and the shares of its variance.
 std::string effects_section(const StudyFindings &findings, Pictures &pictures);
 
-/// Quality, contours, slices, foretold against computed, coefficients and residuals.
+/// Quality, contours, slices, predicted against computed, coefficients and residuals.
 std::string surfaces_section(const StudyFindings &findings, Pictures &pictures);
 
 } // namespace gestell::apps

@@ -302,8 +302,8 @@ void StudyAnalysis::find(const StudyAnswer &answer, StudyFindings &findings)
   {
     findings.front = pareto_front(model, request_.optimise->task, {request_.optimise->pareto, 4096, 1});
     if (findings.front.empty())
-      findings.warnings.push_back("there is no Pareto front: none of the points that were looked at keeps all limits; "
-                                  "widen the limits or the ranges of the variables");
+      findings.warnings.push_back("there is no Pareto front: none of the points examined keeps all limits; widen the "
+                                  "limits or the ranges of the variables");
   }
   if (request_.optimise->robust)
     findings.robust.push_back(robust_at_optimum(findings, model));

@@ -18,8 +18,8 @@ Eigen::VectorXd levels_of(const StudyFindings &findings);
 std::string optimum_scene(const StudyFile &study, const SceneVariants &variants, const Eigen::VectorXd &levels,
                           const std::filesystem::path &folder);
 
-/// Names of the files that a study writes beside its rows, for OwnFolder::require_free().  Rows are told from those of
-/// others by what stands in them.
+/// Names of the files that a study writes in addition to its rows, for OwnFolder::require_free().  Rows are recognised
+/// by their content.
 const std::vector<std::string> &study_names();
 
 /// Writes what was found beside the rows: tables, pictures, report.html and optimum.toml; what an earlier call found

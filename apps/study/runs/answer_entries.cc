@@ -109,7 +109,7 @@ void check_event(const Segments &segments, const Scene &scene)
     refuse(segments, "does not say which of the events: .first, .last, .count or a number" +
                          suggestion(segments[3], {"first", "last", "count"}));
   if (segments.size() > 2 && !(segments.size() == 3 && is_choice(segments[2])) && !is_event_kind(segments[2]))
-    refuse(segments, "names '" + segments[2] + "', which is no kind of event" +
+    refuse(segments, "names '" + segments[2] + "', which is not a kind of event" +
                          suggestion(segments[2], kinds_and_choices()) +
                          "; the kinds that occur stand in summary.json of a run");
 }
@@ -190,7 +190,7 @@ AnswerValue summary_value(const Segments &segments, const Result &result)
     else if (node->is_object() && node->contains(segment))
       node = &(*node)[segment];
     else
-      refuse(segments, "is no number of a run's summary.json: there is no '" + segment + "'" +
+      refuse(segments, "is not a number of a run's summary.json: there is no '" + segment + "'" +
                            (node->is_array() ? " among " + std::to_string(node->size()) + " entries, counted from 1"
                                              : suggestion(segment, keys_of(*node))));
   }
@@ -199,7 +199,7 @@ AnswerValue summary_value(const Segments &segments, const Result &result)
   if (node->is_null())
     return {never, ""};
   if (!node->is_number())
-    refuse(segments, "is no number in a run's summary.json" +
+    refuse(segments, "is not a number in a run's summary.json" +
                          (node->is_object() ? "; name one of its entries: " + listed(keys_of(*node)) : ""));
   return {node->get<double>(), unit_in_summary(segments)};
 }
@@ -223,7 +223,7 @@ void check(const std::vector<std::string> &segments, const Scene &scene)
   else if (is_mode(segments) &&
            (segments.size() != 2 || !is_count(segments[1]) || std::stoi(segments[1]) > scene.modes.number))
     refuse(segments, "needs the number of a mode from 1 to " + std::to_string(scene.modes.number) +
-                         "; modes.number of the scene says how many are told");
+                         "; modes.number of the scene sets how many are listed");
   else if (segments.front() == "stress" && !scene.stress.given)
     refuse(segments, "asks for stresses, which the scene does not compute; give it [output.stress]");
 }

@@ -17,7 +17,7 @@ namespace gestell::apps
 class OutputFormulas
 {
 public:
-  /// @throws std::invalid_argument for what is no formula, and for entries that no run of this scene has
+  /// @throws std::invalid_argument for an invalid formula, and for results that no run of this scene has
   OutputFormulas(const StudyFile &study, const Scene &scene, const Parameters &parameters);
 
   const std::vector<std::string> &signals() const { return signals_; }   ///< that are read, each once

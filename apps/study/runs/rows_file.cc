@@ -39,7 +39,7 @@ double number_of(const std::string &text)
   if (text.empty())
     return std::numeric_limits<double>::quiet_NaN();
   if (*end != '\0')
-    throw std::invalid_argument("'" + text + "' is no number");
+    throw std::invalid_argument("'" + text + "' is not a number");
   return value;
 }
 
@@ -47,7 +47,7 @@ int whole_number(const std::string &text)
 {
   const double value = number_of(text);
   if (!(value >= 0. && value <= std::numeric_limits<int>::max() && value == std::floor(value)))
-    throw std::invalid_argument("'" + text + "' is no number of a run");
+    throw std::invalid_argument("'" + text + "' is not the number of a run");
   return int(value);
 }
 

@@ -266,7 +266,7 @@ private:
     row.run     = orders_[std::size_t(at)].number;
     row.status  = RunStatus::failed;
     row.message = WIFSIGNALED(status) ? std::string("its process ended by a signal: ") + strsignal(WTERMSIG(status)) +
-                                            (WTERMSIG(status) == SIGKILL ? "; was the memory at its end?" : "")
+                                            (WTERMSIG(status) == SIGKILL ? "; did they run out of memory?" : "")
                                       : "its process ended with code " + std::to_string(WEXITSTATUS(status));
     take_(row);
     begin(number);

@@ -176,7 +176,7 @@ RunServer::Worker *RunServer::free_worker()
   std::unique_lock<std::mutex> alone(mutex_);
   given_back_.wait(alone, [&] { return !free_.empty() || n_living_ == 0; });
   if (n_living_ == 0)
-    throw std::runtime_error("study: all processes of --jobs have died; was the memory at its end?");
+    throw std::runtime_error("study: all processes of --jobs have died, probably out of memory; use fewer --jobs");
   Worker *worker = free_.back();
   free_.pop_back();
   return worker;

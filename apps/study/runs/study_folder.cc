@@ -135,7 +135,7 @@ std::vector<RunRow> StudyFolder::begun_anew()
   if (before && there > 0 && int(there) < before->n_runs)
     throw std::invalid_argument(folder_.string() + ": holds " + std::to_string(there) + " of " +
                                 std::to_string(before->n_runs) +
-                                " rows of this study; go on with --resume, or remove runs.csv to begin anew");
+                                " rows of this study; go on with --resume, or remove runs.csv to start again");
   fs::create_directories(folder_);
   enter_own("runs.csv");
   fs::remove(folder_ / "runs.csv");
@@ -153,7 +153,7 @@ bool StudyFolder::begins_anew(Begin begin, const StudyShare &share) const
     throw std::invalid_argument(
         folder_.string() + ": holds " + std::to_string(there) +
         " rows of this study already; make what is missing with --resume, or remove runs.csv to "
-        "begin anew");
+        "start again");
   return share.is_whole() || (share.together && there > 0);
 }
 

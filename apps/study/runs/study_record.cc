@@ -109,14 +109,15 @@ std::optional<StudyRecord> read_record(const std::filesystem::path &file)
   {
     const Json json = Json::parse(in);
     if (!json.at("runs").is_number_integer()) // else the conversion of a real one is undefined
-      throw Json::other_error::create(501, "runs is no whole number", &json);
+      throw Json::other_error::create(501, "runs is not an integer", &json);
     return StudyRecord{json.at("study"), json.at("runs"), json.at("entries").get<Entries>(),
                        json.value("units", std::vector<std::string>())};
   }
   catch (const nlohmann::json::exception &)
   {
-    throw std::invalid_argument(file.string() + ": is no record of a study; remove it with the rows beside it, or give "
-                                                "another folder with -o");
+    throw std::invalid_argument(
+        file.string() +
+        ": is not a record of a study; remove it with the rows beside it, or give another folder with -o");
   }
 }
 

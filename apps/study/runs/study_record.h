@@ -12,7 +12,7 @@ namespace gestell::apps
 {
 
 /// What the rows of a study hang on, entry by entry, as study.json keeps it beside them: so that a study is not gone on
-/// with after it was changed.  What is made of the rows, [surface] and [optimise], is no part of it.
+/// with after it was changed.  What is made of the rows, [surface] and [optimise], is not part of it.
 struct StudyRecord
 {
   std::string                        study{};

@@ -182,9 +182,9 @@ Result StudyRunner::settled_result(const Eigen::VectorXd &levels, const std::ato
       return result;
     constexpr int most_attempts = 5; // to find what a run tells of its own parameters
     if (attempt == most_attempts)
-      throw std::invalid_argument(
-          measures_.front().place.text() + ": scene.measure: after " + std::to_string(most_attempts) +
-          " runs what they tell of their own parameters has not settled; is the event reached?");
+      throw std::invalid_argument(measures_.front().place.text() + ": scene.measure: after " +
+                                  std::to_string(most_attempts) +
+                                  " runs the values of their own parameters has not settled; is the event reached?");
   }
 }
 

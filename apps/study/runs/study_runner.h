@@ -39,7 +39,7 @@ public:
 
   const SceneVariants &variants() const { return variants_; }
 
-  /// Sets what runs of the scene tell of its own parameters, [scene.measure], to what holds at these levels.
+  /// Sets the parameters of [scene.measure], which are results of runs of the scene, to their values at these levels.
   void settle(const Eigen::VectorXd &levels, const std::atomic<bool> *stop);
 
 private:

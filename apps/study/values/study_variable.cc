@@ -14,7 +14,7 @@ void check_variable(const StudyVariable &variable)
   const std::string name = "study: variable " + variable.name + ": ";
   if (!std::isfinite(variable.from) || !std::isfinite(variable.to) || !(variable.from < variable.to))
     throw std::invalid_argument(name + "from " + short_text(variable.from) + " to " + short_text(variable.to) +
-                                " is no range; from must be less than to");
+                                " is not a range; from must be less than to");
   if (variable.scatter != Scatter::none && !(std::isfinite(variable.width) && variable.width > 0.))
     throw std::invalid_argument(name + "the width of its scatter is " + short_text(variable.width) +
                                 "; it must be positive");
@@ -31,7 +31,7 @@ StudyVariable variable_of_levels(StudyVariable variable, std::vector<double> lev
 {
   for (const double level : levels)
     if (!std::isfinite(level))
-      throw std::invalid_argument("study: variable " + variable.name + ": a level is no number");
+      throw std::invalid_argument("study: variable " + variable.name + ": a level is not a number");
   std::sort(levels.begin(), levels.end());
   levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
   if (levels.size() < 2)

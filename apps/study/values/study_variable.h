@@ -45,7 +45,7 @@ struct StudyVariable
 };
 
 /// The variable that takes these levels: from the smallest to the largest, ascending.
-/// @throws std::invalid_argument for fewer than two different levels, or one that is no number
+/// @throws std::invalid_argument for fewer than two different levels, or one that is not a number
 StudyVariable variable_of_levels(StudyVariable variable, std::vector<double> levels);
 
 /// @throws std::invalid_argument unless from < to, both numbers, and the scatter is none or has a positive width

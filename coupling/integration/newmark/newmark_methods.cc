@@ -64,10 +64,11 @@ public:
   std::string meaning() const override { return "Newmark's formulas; beta = 1/4, gamma = 1/2 keep amplitudes."; }
   const std::vector<MethodParameter> &parameters() const override
   {
-    static const std::vector<MethodParameter> all = {{"beta", "weight of the new acceleration in the displacement",
-                                                      0.25, "zero or positive", [](double beta) { return beta >= 0.; }},
-                                                     {"gamma", "its weight in the velocity; above 1/2 it damps", 0.5,
-                                                      "positive", [](double gamma) { return gamma > 0.; }}};
+    static const std::vector<MethodParameter> all = {
+        {"beta", "weight of the new acceleration in the displacement", 0.25, "zero or positive",
+         [](double beta) { return beta >= 0.; }},
+        {"gamma", "weight of the new acceleration in the velocity; numerical damping above 1/2", 0.5, "positive",
+         [](double gamma) { return gamma > 0.; }}};
     return all;
   }
   std::string label(const MethodOptions &o) const override
@@ -105,9 +106,9 @@ public:
   std::string meaning() const override { return "Newmark's formulas with averaged forces (Hilber, Hughes, Taylor)."; }
   const std::vector<MethodParameter> &parameters() const override
   {
-    static const std::vector<MethodParameter> all = {{"alpha", "damping of high modes: none at 0, most at -1/3", -0.05,
-                                                      "between -1/3 and 0",
-                                                      [](double alpha) { return alpha >= -1. / 3. && alpha <= 0.; }}};
+    static const std::vector<MethodParameter> all = {
+        {"alpha", "numerical damping of high modes: none at 0, largest at -1/3", -0.05, "between -1/3 and 0",
+         [](double alpha) { return alpha >= -1. / 3. && alpha <= 0.; }}};
     return all;
   }
   std::string label(const MethodOptions &o) const override { return labelled("HHT", number(o, "alpha")); }
@@ -126,9 +127,9 @@ public:
   }
   const std::vector<MethodParameter> &parameters() const override
   {
-    static const std::vector<MethodParameter> all = {{"rho_inf", "spectral radius for modes fast against the step", 0.8,
-                                                      "between 0 and 1",
-                                                      [](double rho) { return rho >= 0. && rho <= 1.; }}};
+    static const std::vector<MethodParameter> all = {
+        {"rho_inf", "spectral radius for modes that the step does not resolve", 0.8, "between 0 and 1",
+         [](double rho) { return rho >= 0. && rho <= 1.; }}};
     return all;
   }
   std::string label(const MethodOptions &o) const override

@@ -73,9 +73,9 @@ public:
   }
   const std::vector<MethodParameter> &parameters() const override
   {
-    static const std::vector<MethodParameter> all = {{"theta",
-                                                      "where the balance holds, in steps; stable from 1.366 on", 1.4,
-                                                      "1 or more", [](double theta) { return theta >= 1.; }}};
+    static const std::vector<MethodParameter> all = {
+        {"theta", "instant of the balance of forces, in steps; stable at 1.366 and above", 1.4, "1 or more",
+         [](double theta) { return theta >= 1.; }}};
     return all;
   }
   std::string label(const MethodOptions &o) const override

@@ -410,7 +410,7 @@ ModalBlocks modal_blocks(const SecondOrderSystem &system, SharedModes *shared)
     refuse("it works in the modes of the whole base system, and an unreduced frame has too many; reduce the frame, or "
            "take the method bdf");
   if (system.linear().excitation().has_rest())
-    refuse("the load is no sum of harmonics; take the method bdf");
+    refuse("the load is not a sum of harmonics; take the method bdf");
   if (system.joints().n_rows() > 0)
     refuse("ideal joints are not integrated by it; use compliant ones");
   const auto  name      = [&](int i) { return system.linear().coordinate_name(i); };

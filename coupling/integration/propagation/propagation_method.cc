@@ -88,7 +88,7 @@ public:
   const std::vector<MethodParameter> &parameters() const override
   {
     static const std::vector<MethodParameter> all = {
-        {"force", "how the forces of the elements run over a step", 0., "", {}, {"collocation", "average", "linear"}}};
+        {"force", "interpolation of element forces over a step", 0., "", {}, {"collocation", "average", "linear"}}};
     return all;
   }
   bool        takes_order() const override { return true; }

@@ -25,7 +25,7 @@ void fail_singular(const SecondOrderSystem &system, double t)
 {
   std::ostringstream message;
   message << "the equation of the forces is singular at t = " << t << " s";
-  const char *separator = ": the elements that stick hold the same motion, on ";
+  const char *separator = ": the elements that stick constrain the same motion, on ";
   for (const HeldMeasure &h : system.forces().held())
     for (Eigen::SparseMatrix<double>::InnerIterator it(system.forces().directions(), h.measure); it; ++it)
     {

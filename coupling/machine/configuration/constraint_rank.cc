@@ -127,7 +127,7 @@ std::string ConstraintRank::dependence() const
   }
   std::sort(lines.begin(), lines.end());
   std::string text = "the joints say the same twice, or do not hold the mechanism in this position; ";
-  text += dependent_ == 1 ? "one equation is too much:" : std::to_string(dependent_) + " equations are too many:";
+  text += dependent_ == 1 ? "one equation is redundant:" : std::to_string(dependent_) + " equations are redundant:";
   for (const auto &line : lines)
     text += line.second;
   text += "\nLeave out what is held twice: ";

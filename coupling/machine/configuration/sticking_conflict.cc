@@ -74,7 +74,7 @@ std::string words_of(const Machine &machine, const std::string &element, const E
 {
   Eigen::Index most = 0;
   row.cwiseAbs().maxCoeff(&most);
-  std::string text = "\"" + element + "\" sticks at the start and holds the motion of " +
+  std::string text = "\"" + element + "\" sticks at the start and constrains the motion of " +
                      machine.coordinate_name(int(most)) + ", which ";
   for (std::size_t i = 0; i < others.size(); ++i)
     text += (i == 0 ? "\"" : i + 1 == others.size() ? " and \"" : ", \"") + others[i] + "\"";

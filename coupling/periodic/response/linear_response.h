@@ -59,7 +59,7 @@ struct LinearAnswer
  *
  * Coefficients are those of the instant, without excitation, events and gyroscopic changes over time.
  *
- * Source: docs/frf.md (1) to (4).
+ * Source: docs/theory/frequency_response.md (1) to (4).
  */
 class LinearResponse
 {

@@ -30,7 +30,7 @@ struct StateSpace
  * @param answers  outputs
  * @throws std::invalid_argument if a free motion has no mass, which is not of this form
  *
- * Source: docs/frf.md (1), (2), (5).
+ * Source: docs/theory/frequency_response.md (1), (2), (5).
  */
 StateSpace state_space(const LinearResponse &machine, const Eigen::MatrixXd &forces,
                        const std::vector<LinearAnswer> &answers);

@@ -23,7 +23,7 @@ namespace gestell::coupling
  * which includes coordinates without mass (theta = 0).  Motions at rest, and growth within rounding, |s| < 1e-6
  * sigma or Re s < 1e-7 |s|, are omitted; sigma is in the range of the natural frequencies.
  *
- * Source: docs/frf.md, An unstable operating point.
+ * Source: docs/theory/frequency_response.md, An unstable operating point.
  * @param M, B, C  [n x n], any of them may be unsymmetric
  * @param G  [n_e x n]
  * @return [1/s] of each conjugate pair the one with imaginary part >= 0, fastest growth first; nothing where more than

@@ -296,7 +296,7 @@ void ForceBandwidthCheck::finish(RunOutcome &outcome)
     text << limit_ * (1 << enough) << " Hz holds what they contain";
   else
     text << "more than " << limit_ * (1 << (n_ranges - 1))
-         << " Hz would be needed; double it until the answer stays as it is";
+         << " Hz would be needed; double it until the response no longer changes";
   outcome.warn("force-bandwidth", places_[doubtful.front()].name, text.str());
 }
 

@@ -76,7 +76,7 @@ public:
       return;
     std::ostringstream text;
     text << "chatter: " << long(total[chatter]) << " steps, " << 100. * share
-         << " % of the run, had more events than are located; they were gone over";
+         << " % of the run, had more events than are located; they were passed without being located";
     outcome.warn("chatter", "run.events", text.str());
   }
   /// The counters of the integrator continue where its motion restarted: counts of the discarded motion are removed.

@@ -33,9 +33,9 @@ LinearSpectrum spectrum_for(const Machine &machine, const InitialState &start, c
  *
  * - BDF integrates each complex mode separately: its scalar formula at omega = |s|, zeta = -Re s/|s| decides.
  * - Newmark's method, central differences and Wilson's method do not: a motion x r^k with real r < -1 grows if m(r) M +
- *   b(r) h B + c(r) h^2 C is not positive definite, and for gamma >= 1/2 no other motion can grow (docs/stability.md).
- *   For Newmark's method with gamma < 1/2 the complex modes of the machine that is equivalent to its step are also
- *   checked.
+ *   b(r) h B + c(r) h^2 C is not positive definite, and for gamma >= 1/2 no other motion can grow
+ * (docs/theory/stability.md). For Newmark's method with gamma < 1/2 the complex modes of the machine that is equivalent
+ * to its step are also checked.
  * - HHT and generalised alpha are stable with every step, for any dampers.
  * - With follower forces definiteness does not decide; the roots r of all modes together do: growing_step().
  * - Exact propagation approximates only the stiffness of elements, which contributes omega_c^2 = v^T K v to omega^2 of

@@ -24,7 +24,7 @@ struct GrowingMotion
  * a matrix polynomial in r of second or third degree.  Physical growth exp(sigma t) is not an error of the method: the
  * result is empty if ln |r| <= 2 sigma h, at most twice the physical growth rate.
  *
- * Source: docs/stability.md, Forces that follow the motion.
+ * Source: docs/theory/stability.md, Forces that follow the motion.
  */
 std::optional<GrowingMotion> growing_step(const LinearMachine &machine, const MethodOptions &options, double h);
 

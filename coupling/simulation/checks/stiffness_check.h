@@ -20,7 +20,7 @@ namespace gestell::coupling
  *
  *     largest eigenvalue of  -c h^2 K(u) F  below 1,     F = W^T A^-1 W.
  *
- * The trace is an upper bound, which suffices in most steps.  Source: docs/stability.md.
+ * The trace is an upper bound, which suffices in most steps.  Source: docs/theory/stability.md.
  */
 class StiffnessCheck : public RunObserver
 {

@@ -72,8 +72,8 @@ TEST(CasesOfRanks, AreRefusedAsATeamWithTheWayOut)
     {
       const Cases  cases(n);
       const Answer answer = on_ranks(n, there ? cases.run_there() : cases.run());
-      const auto   others =
-          std::to_string(n - 1) + " of " + std::to_string(n) + " ranks were called by other words, or in another";
+      const auto   others = std::to_string(n - 1) + " of " + std::to_string(n) +
+                          " ranks were started with another command line or working";
       expect_answer(answer, 2, {"gestell: mpirun: " + others, "--apart (or GESTELL_APART=1)"});
       EXPECT_EQ(count(answer.text, "gestell: "), 1) << answer.text;
       EXPECT_EQ(cases.n_done(), 0);
@@ -125,7 +125,7 @@ TEST(CasesOfRanks, OfStudiesAreRefusedToo)
   const std::string in = (cases.folder / "").string() + "in", options = " --quiet -o \"" + in + "0/study\"";
   const Answer      other =
       on_ranks(2, program + " study \"" + in + "$OMPI_COMM_WORLD_RANK/s$OMPI_COMM_WORLD_RANK.toml\"" + options);
-  expect_answer(other, 2, {"1 of 2 ranks were called by other words"});
+  expect_answer(other, 2, {"1 of 2 ranks were started with another command line"});
   EXPECT_EQ(count(other.text, "gestell: "), 1) << other.text;
   EXPECT_FALSE(fs::exists(cases.folder / "in0/study"));
   expect_answer(on_ranks(2, program + " study \"" + in + "0/both.toml\"" + options), 0, {"report: "});

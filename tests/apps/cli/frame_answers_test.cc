@@ -59,7 +59,7 @@ TEST_F(FrameAnswers, FreeMotionsHaveNoFrequencyAndAreNamed)
   const Answer answer = ask("modes", block(""));
   ASSERT_EQ(answer.exit_code, 0) << answer.text;
   EXPECT_EQ(count(answer.text, "   rigid motion\n"), 6) << answer.text;
-  EXPECT_EQ(count(answer.text, "   free motion: nothing elastic holds it\n"), 6) << answer.text;
+  EXPECT_EQ(count(answer.text, "   rigid-body mode: no stiffness\n"), 6) << answer.text;
   EXPECT_FALSE(answer.says("unstable")) << answer.text;
 }
 
@@ -133,7 +133,7 @@ std::string foundation(const std::string &values)
 
 TEST_F(FrameAnswers, CheckTellsOfAFrameThatFallsInTheLineOfRun)
 {
-  const std::string nothing = "nothing holds the frame as a whole";
+  const std::string nothing = "no support constrains the frame as a whole";
   const Answer      checked = ask("check", block("")), run = ask("run", block(""));
   for (const Answer &falls : {checked, run})
   {
@@ -155,7 +155,7 @@ TEST_F(FrameAnswers, CheckTellsOfAFrameThatFallsInTheLineOfRun)
 
 TEST_F(FrameAnswers, CheckTellsOfSupportsThatLeaveADirectionFree)
 {
-  const std::string nothing = "nothing holds the frame as a whole";
+  const std::string nothing = "no support constrains the frame as a whole";
   for (const std::string &slips :
        {directions("[\"y\", \"z\"]"), foundation("stiffness = [0, \"1 kN/mm\", \"1 kN/mm\"]"),
         foundation("stiffness = [0, \"1 kN/mm\", \"1 kN/mm\"], damping = \"1 kN s/m\"")})
@@ -177,7 +177,7 @@ std::string chain(const std::string &lowest, const std::string &more = "")
 
 TEST_F(FrameAnswers, CheckTellsOfFramesFromMatricesThatFall)
 {
-  const std::string nothing = "nothing holds the frame as a whole", reduced = "[reduction]\nmodes = 1\n";
+  const std::string nothing = "no support constrains the frame as a whole", reduced = "[reduction]\nmodes = 1\n";
   for (const std::string &more : {std::string(), reduced})
   {
     EXPECT_EQ(count(ask("check", chain("1e6", more)).text, nothing), 1) << more;

@@ -120,7 +120,7 @@ TEST_F(FrameCacheCommand, ChecksContentsIfAskedTo)
   }
   EXPECT_TRUE(shell(called + "reduce --prune").says("removed 0 files"));
   EXPECT_TRUE(shell(called + "reduce --list --check").says("; 1 cannot be used"));
-  EXPECT_TRUE(shell(called + "reduce --explain " + scene).says("would be made anew"));
+  EXPECT_TRUE(shell(called + "reduce --explain " + scene).says("would be reduced again"));
   EXPECT_TRUE(shell(called + "reduce --prune --check").says("removed 1 file,"));
 }
 

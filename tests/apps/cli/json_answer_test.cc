@@ -70,7 +70,7 @@ TEST(JsonAnswer, OfWrongInputTellsPlaceValueNeedAndWayOut)
   EXPECT_EQ(of_file["key"], "body.slide.mass");
   const Json line = document("check", 2)["error"];
   EXPECT_NE(line["message"].get<std::string>().find("SCENE is required"), std::string::npos);
-  EXPECT_EQ(line["way_out"], "gestell check --help tells what it takes");
+  EXPECT_EQ(line["way_out"], "gestell check --help lists its arguments");
 }
 
 /// An end by a switch that is to end the run, and one where a law has no value: both with their error and as many

@@ -106,7 +106,7 @@ const std::vector<Mistake> of_the_press = {
     {"CommaInText", {{"\"80 mm\"", "\"0,08 m\""}}, {"0,08 m", "write 0.08"}},
     {"CommaInANumber", {{"s_K     = 0.15", "s_K = 0,15"}}, {"decimals have a point: 0.15"}},
     {"PercentWithoutQuotes", {{"s_K     = 0.15", "s_K = 15%"}}, {"in quotes: \"15%\""}},
-    {"DuplicateKey", {{"order  = 2", "order  = 2\norder = 3"}}, {"'order' stands twice", "leave one"}},
+    {"DuplicateKey", {{"order  = 2", "order  = 2\norder = 3"}}, {"'order' is defined twice", "remove one"}},
     {"DuplicateTable", {{"[output.signals]", "[run]\n[output.signals]"}}, {"[run] stands", "under one head"}},
     {"CyclicParameters",
      {{"\"80 mm\"", "\"l/10\""}, {"\"800 mm\"", "\"10*r\""}},
@@ -126,7 +126,7 @@ const std::vector<Mistake> of_the_press = {
     {"OrderOutOfRange", {{"order  = 2", "order  = 9"}}, {"order is 9", "1 to 6"}},
     {"UnknownType", {{"\"blanking force\"", "\"blank force\""}}, {"'blank force'", "'blanking force'"}},
     {"TextForANumber", {{"order  = 2", "order  = \"two\""}}, {"\"two\"", "a number is given as"}},
-    {"NumberForText", {{"\"bdf\"", "2"}}, {"run.method", "needs text in quotes, got 2"}},
+    {"NumberForText", {{"\"bdf\"", "2"}}, {"run.method", "needs a string in quotes, got 2"}},
     {"UnknownCoordinate", {{" slide = \"0.11", " slider = \"0.11"}}, {"'slider'", "did you mean 'slide'"}},
 };
 
@@ -138,7 +138,7 @@ const std::vector<Mistake> of_a_frame = {
     {"UnknownMaterial", {{"\"steel\"", "\"steal\""}}, {"'steal'", "did you mean 'steel'"}},
     {"ForgottenFrom", {{"from = \"crank\"\n", ""}}, {"joint.\"crank pin\"", "'from' is missing"}},
     {"UnknownCoupling", {{"coupling = \"rigid\"", "coupling = \"rigd\""}}, {"'rigd'", "did you mean 'rigid'"}},
-    {"HalfAMode", {{"modes  = 20", "modes  = 20.5"}}, {"reduction.modes", "a whole number, got 20.5"}},
+    {"HalfAMode", {{"modes  = 20", "modes  = 20.5"}}, {"reduction.modes", "an integer, got 20.5"}},
     {"BounceAboveOne", {{"restitution = 0.6", "restitution = 6"}}, {"restitution = 6", "at most 1"}},
     {"StiffnessOfAnotherKind", {{"\"1e9 N/m\"", "\"1e9 N\""}}, {"1e9 N", "such as \"420 kN/mm\""}},
     {"InertiaInMillimetres",
@@ -226,7 +226,7 @@ TEST(MistakeOnTheCommandLine, IsAnsweredWithTheOptionAndWhatItTakes)
   expect_answer(run("--resume --sensitivities all"), 2, {"--resume", "leave out one of the two"});
   expect_answer(gestell("chek " + file), 2, {"no command 'chek'", "did you mean 'check'"});
   expect_answer(gestell("foo"), 2, {"there is no command 'foo'; valid: 'run', 'modes'"});
-  expect_answer(gestell("check a.toml b.toml"), 2, {"'b.toml' is one input too many"});
+  expect_answer(gestell("check a.toml b.toml"), 2, {"'b.toml' is an unexpected extra argument"});
   expect_answer(gestell("check nothere.toml"), 2, {"nothere.toml", "give the path of a .toml file"});
   expect_answer(gestell("check"), 2, {"gestell: check: SCENE is required", "--help"});
   expect_answer(gestell("run " + file + " -o /proc/x"), 2, {"/proc/x", "name a folder that can be written with -o"});

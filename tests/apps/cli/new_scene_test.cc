@@ -50,10 +50,10 @@ TEST(NewSceneFile, OverwritesNothing)
   const Folder folder("new_twice");
   EXPECT_EQ(gestell(written_to(folder, "cam")).exit_code, 0);
   const std::string before = read(folder / "my.toml");
-  expect_answer(gestell(written_to(folder, "press")), 2, {"my.toml is there already"});
+  expect_answer(gestell(written_to(folder, "press")), 2, {"my.toml already exists"});
   EXPECT_EQ(read(folder / "my.toml"), before);
   std::filesystem::remove(folder / "my.toml");
-  expect_answer(gestell(written_to(folder, "press")), 2, {"my.geo is there already"});
+  expect_answer(gestell(written_to(folder, "press")), 2, {"my.geo already exists"});
 }
 
 TEST(NewSceneFile, WhereNothingCanBeWrittenIsAMistakeOfInput)

@@ -87,10 +87,10 @@ TEST_F(NodeTable, MistakesAreToldWithFileLineAndRemedy)
   expect(complaint(head + "top,0,0,0\n"), {"nodes.csv:2: has 4 cells", "has 5"});
   expect(complaint(head + "top,0,0,one,3\n"), {"nodes.csv:2: column 'z'", "'one'"});
   expect(complaint(head + "top,0,0,nan,3\n"), {"'nan'"});
-  expect(complaint(head + "top,0,0,0,1.5\n"), {"whole number"});
+  expect(complaint(head + "top,0,0,0,1.5\n"), {"integer"});
   expect(complaint(head + "top,0,0,0,5\n"), {"there is no row 5; the matrices have rows 1 to 4"});
   expect(complaint(head + "top,0,0,0,\n"), {"has no row"});
-  expect(complaint(head + "top,0,0,0,1\ntop,0,0,0,2\n"), {"nodes.csv:3: node 'top' is there already", "nodes.csv:2"});
+  expect(complaint(head + "top,0,0,0,1\ntop,0,0,0,2\n"), {"nodes.csv:3: node 'top' already exists", "nodes.csv:2"});
   expect(complaint(head + "top,0,0,0,1\nfoot,0,0,0,-1\n"), {"row 1, which is top.uz already"});
   expect(complaint(head + "a.b,0,0,0,1\n"), {"no dots"});
   expect(complaint(head + ",0,0,0,1\n"), {"has no interface"});

@@ -44,7 +44,7 @@ TEST(Show, DrawsPeakMotionAndModesAndLeavesNoServerBehind)
 
   std::ofstream(folder.results() / "motion" / "mechanism_00000.vtp") << "broken";
   expect_answer(gestell("show '" + folder.results().string() + "' --quiet -o '" + pictures.string() + "'"), 2,
-                {"mechanism_00000.vtp: is no surface of VTK"});
+                {"mechanism_00000.vtp: is not a surface of VTK"});
 }
 
 } // namespace

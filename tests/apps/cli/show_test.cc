@@ -27,7 +27,7 @@ TEST(Show, RefusesAFolderWithoutResults)
 {
   const Folder folder("show_nothing");
   expect_answer(gestell("show"), 2, {"needs the folder of a result"});
-  expect_answer(gestell("show " + named(folder)), 2, {"is no folder of results"});
+  expect_answer(gestell("show " + named(folder)), 2, {"is not a folder of results"});
   std::filesystem::create_directories(folder.results());
   expect_answer(gestell("show " + named(folder)), 2, {"holds no motion.pvd", "gestell modes"});
 }
@@ -36,7 +36,7 @@ TEST(Show, RefusesABrokenCollectionWithTheFile)
 {
   const Folder folder("show_broken");
   write_motion(folder, head);
-  expect_answer(gestell("show " + named(folder)), 2, {"motion.pvd: is no whole collection"});
+  expect_answer(gestell("show " + named(folder)), 2, {"motion.pvd: is not a complete collection"});
   write_motion(folder, head + "<DataSet timestep=\"x\" part=\"0\" file=\"a.vtp\"/>\n" + tail);
   expect_answer(gestell("show " + named(folder)), 2, {"motion.pvd: broken", "timestep"});
   write_motion(folder, head + "<DataSet timestep=\"0\" part=\"0\" file=\"a.vtp\"/>\n" + tail);

@@ -1,4 +1,4 @@
-// The figures of docs/reliability.md: 200 failed writes and 200 kills.
+// The figures of docs/develop/robustness.md: 200 failed writes and 200 kills.
 
 #include "tests/apps/disk/disk_cases.h"
 

@@ -114,7 +114,7 @@ def check_lists(gestell):
         wrong += [f"{name}: {complaint}" for entry in entries for complaint in wrong_entry(entry)]
         if len(entries) > 15:
             wrong.append(f"{name} has become long")
-    wrong += unknown_languages() + dead_links() + wrong_scenes(gestell)
+    wrong += unknown_languages() + dead_links() + wrong_scenes(gestell) + outdated_tables(gestell)
     print(*wrong, sep="\n")
     return len(wrong)
 
@@ -130,10 +130,10 @@ def wrong_entry(entry):
 
 
 TESTERS = {  # of pages with blocks of other languages: the test that reads them
-    "docs/python.md": ("tests/apps/python/CMakeLists.txt", {"python"}),
-    "docs/python_first_hour.md": ("tests/apps/python/CMakeLists.txt", {"python"}),
-    "docs/library.md": ("tests/apps/package/installed_test.py", {"cpp", "cmake"}),
-    "docs/how_to": ("tests/site/how_to_test.py", {"cpp", "diff"}),
+    "docs/reference/python.md": ("tests/apps/python/CMakeLists.txt", {"python"}),
+    "docs/how_to/python_first_hour.md": ("tests/apps/python/CMakeLists.txt", {"python"}),
+    "docs/reference/library.md": ("tests/apps/package/installed_test.py", {"cpp", "cmake"}),
+    "docs/develop": ("tests/site/how_to_test.py", {"cpp", "diff"}),
 }
 
 
@@ -157,6 +157,22 @@ def dead_links():
         for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", pages.FENCE.sub("", pages.text_of(page)))
         if "://" not in target and not (pages.SOURCES / page.parent / target).exists()
     ]
+
+
+def outdated_tables(gestell):
+    """Pages whose generated tables (keys, options, files, members) differ from those of the program."""
+    with tempfile.TemporaryDirectory() as name:
+        copy = pathlib.Path(name) / "docs"
+        shutil.copytree(pages.SOURCES / "docs", copy)
+        code, answer = answer_of(f"gestell help --renew {copy}", name, gestell)
+        if code != 0:
+            return [f"gestell help --renew: {answer}"]
+        paths = [path.relative_to(copy) for path in copy.rglob("*") if path.suffix in (".md", ".json")]
+        return [
+            f"docs/{path}: a generated table is outdated: gestell help --renew docs"
+            for path in paths
+            if (copy / path).read_bytes() != (pages.SOURCES / "docs" / path).read_bytes()
+        ]
 
 
 def is_part(part, whole):
@@ -195,12 +211,12 @@ def wrong_scene(body, before, runs, gestell):
 
 
 def check_gallery():
-    """docs/gallery.md against apps/scenes and the pictures, which may not grow beyond 2 MB."""
-    page, pictures = pages.text_of("docs/gallery.md"), pages.SOURCES / "docs/images/gallery"
+    """docs/reference/gallery.md against apps/scenes and the pictures, which may not grow beyond 2 MB."""
+    page, pictures = pages.text_of("docs/reference/gallery.md"), pages.SOURCES / "docs/images/gallery"
     scenes = sorted(path.stem for path in (pages.SOURCES / "apps/scenes").glob("*.toml"))
-    wrong = [f"gallery: no {what}" for name in scenes for what in (f"(images/gallery/{name}.png)", f"gestell run apps/scenes/{name}.toml") if what not in page]
+    wrong = [f"gallery: no {what}" for name in scenes for what in (f"(../images/gallery/{name}.png)", f"gestell run apps/scenes/{name}.toml") if what not in page]
     wrong += [f"gallery: no picture {name}.png" for name in scenes if not (pictures / f"{name}.png").is_file()]
-    shown = re.findall(r"\(images/gallery/(\w+)\.png\)", page)
+    shown = re.findall(r"\(\.\./images/gallery/(\w+)\.png\)", page)
     wrong += [f"gallery: there is no scene {name}" for name in {*shown, *(path.stem for path in pictures.glob("*.png"))} - set(scenes)]
     size = sum(path.stat().st_size for path in pictures.iterdir())
     if size > 2e6:

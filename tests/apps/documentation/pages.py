@@ -32,7 +32,7 @@ def text_of(page):
 
 def changes_the_program(page):
     """Pages whose commands need the source that they add: followed in a copy of the tree by tests/site/how_to_test.py."""
-    return str(page).startswith("docs/how_to/")
+    return str(page).startswith("docs/develop/add_")
 
 
 def fenced(text, language):

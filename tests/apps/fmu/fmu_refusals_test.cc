@@ -56,7 +56,7 @@ TEST(Fmu, SaysWhatIsWrong)
   says(one.step(1e-3, -1e-3), "needs a length above zero");
   says(one.set("c_P", 1e9), "'c_P' is fixed once the machine has started");
   fmi2FMUstate none = nullptr;
-  says(one.from_bytes("gestell", none), "no state of an FMU");
+  says(one.from_bytes("gestell", none), "not a state of an FMU");
   EXPECT_EQ(one.step(1e-3, 1e-3), fmi2OK); // and it goes on
   EXPECT_EQ(one.terminate(), fmi2OK);
   says(one.step(2e-3, 1e-3), "after its end");
@@ -95,7 +95,8 @@ TEST(FmuExport, RefusesOddInputWithTheWayOut)
   refused(scene("press_minimal.toml") + " --inputs slid", {"--inputs slid", "there is no place 'slid'", "'slide'"});
   refused(scene("press_minimal.toml") + " --inputs frame.crwn.uz", {"frame.crwn", "crown"});
   refused(scene("press_minimal.toml") + " --inputs F_P=slide", {"scene.toml: 'F_P' is an input and a signal"});
-  refused(scene("press_minimal.toml") + " --set start.rule='periodic'", {"an FMU does not look for periodic motions"});
+  refused(scene("press_minimal.toml") + " --set start.rule='periodic'",
+          {"an FMU does not search for periodic motions"});
   refused(scene("press_minimal.toml") + " --set 'element.rod.length=60 mm'", {"element.rod"});
   refused(scene("press_minimal.toml") + " --inputs frame.crown.rx", {"acts on a motion that the machine has not"});
   refused(scene("press_minimal.toml") + " --inputs F=slide,F=crank", {"there is an input 'F' already"});

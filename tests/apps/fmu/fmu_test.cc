@@ -334,7 +334,7 @@ TEST(Fmu, AStateKnowsItsFmuAndItsStopTime)
   EXPECT_EQ(one.from_bytes(broken, damaged), fmi2Error);
   EXPECT_THAT(one.last_message(), testing::HasSubstr("not finite"));
   EXPECT_EQ(one.from_bytes(bytes.substr(0, bytes.size() - 4), damaged), fmi2Error);
-  EXPECT_THAT(one.last_message(), testing::HasSubstr("no state of an FMU"));
+  EXPECT_THAT(one.last_message(), testing::HasSubstr("not a state of an FMU"));
   one.forget(kept);
   other.forget(foreign);
 }

@@ -55,9 +55,9 @@ for core in Prescott Haswell; do # as tests/processors: BLAS and kernels of othe
 done
 
 in_root apt-get -qq -y install --no-install-recommends g++ cmake make pkg-config >/dev/null 2>&1
-as_user 'mkdir -p example && cd example && sed -n "/^\`\`\`cmake/,/^\`\`\`/p" /usr/share/doc/gestell/docs/library.md | grep -v "^\`\`\`" >CMakeLists.txt &&
-  sed -n "/^\/\/ duffing.cc/,/^\`\`\`/p" /usr/share/doc/gestell/docs/library.md | grep -v "^\`\`\`" >duffing.cc &&
-  sed -n "/^\/\/ stiffer_rod.cc/,/^\`\`\`/p" /usr/share/doc/gestell/docs/library.md | grep -v "^\`\`\`" >stiffer_rod.cc &&
+as_user 'mkdir -p example && cd example && sed -n "/^\`\`\`cmake/,/^\`\`\`/p" /usr/share/doc/gestell/docs/reference/library.md | grep -v "^\`\`\`" >CMakeLists.txt &&
+  sed -n "/^\/\/ duffing.cc/,/^\`\`\`/p" /usr/share/doc/gestell/docs/reference/library.md | grep -v "^\`\`\`" >duffing.cc &&
+  sed -n "/^\/\/ stiffer_rod.cc/,/^\`\`\`/p" /usr/share/doc/gestell/docs/reference/library.md | grep -v "^\`\`\`" >stiffer_rod.cc &&
   cmake -S . -B out >/dev/null && cmake --build out >/dev/null && out/duffing && out/stiffer_rod /usr/share/gestell/scenes/press_minimal.toml | tail -1 &&
   g++ duffing.cc $(pkg-config --cflags --libs gestell) -o plain && ./plain'
 

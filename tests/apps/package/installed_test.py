@@ -83,7 +83,7 @@ class Prefix(Tree):
         self.builds_examples()
 
     def builds_examples(self):
-        page = (SOURCES / "docs/library.md").read_text(encoding="utf-8")
+        page = (SOURCES / "docs/reference/library.md").read_text(encoding="utf-8")
         project = self.folder / "project"
         project.mkdir()
         (project / "CMakeLists.txt").write_text(re.search(r"^```cmake\n(.*?)^```", page, re.S | re.M)[1])

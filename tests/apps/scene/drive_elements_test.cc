@@ -148,7 +148,7 @@ TEST(DynamicMotor, RunsBesideAFrameOfModes)
 
 TEST(SceneReference, ItsExamplesOfElementsAreRead)
 {
-  std::ifstream     in(std::string(GESTELL_SOURCE_DIR) + "/docs/scene/elements.md");
+  std::ifstream     in(std::string(GESTELL_SOURCE_DIR) + "/docs/reference/scene/elements.md");
   const std::string document{std::istreambuf_iterator<char>(in), {}};
   const auto        begin = document.find("```toml\n", document.find("## Examples")) + 8;
   ASSERT_GT(begin, 8u);

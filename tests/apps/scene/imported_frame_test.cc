@@ -133,7 +133,7 @@ TEST_F(ImportedFrame, OfNodesWithAxesOfTheirOwnIsTurnedToTheGlobalOnes)
   {
     if (nodes == "nodes = 'b.pch'\n")
     {
-      refused(on_cards + nodes, {"nodes", "node 12 counts its motions in another system in", "a.pch"});
+      refused(on_cards + nodes, {"nodes", "node 12 has another displacement coordinate system in", "a.pch"});
       continue;
     }
     const auto placed = read(on_cards + nodes).frame.matrices;
@@ -148,7 +148,7 @@ TEST_F(ImportedFrame, OfNodesWithAxesOfTheirOwnIsTurnedToTheGlobalOnes)
   EXPECT_NO_THROW(read(on_cards + "nodes = 'nodes.csv'\n"));
   folder.write("a.pch", systems + "GRID,12,,0.,0.,0.,5\nDMIG,KAAX,0,6,2\nDMIG,KAAX,12,1,,12,1,1.\n"
                                   "DMIG,MAAX,0,6,2\nDMIG,MAAX,12,1,,12,1,1.\n");
-  refused(on_cards, {"node 12 counts its motions along axes of its own", "node 12, uy has no row"});
+  refused(on_cards, {"node 12 has its own displacement coordinate system", "node 12, uy has no row"});
 }
 
 TEST_F(ImportedFrame, HasOnePlaceOfEachNode)

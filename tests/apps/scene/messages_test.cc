@@ -105,14 +105,13 @@ TEST(Messages, SaysWhatALineThatIsNoTomlShouldBe)
   expect("x = 1,5 mm", "decimals have a point: \"1.5 mm\"");
   expect("x = 1,5e-3", "decimals have a point: 1.5e-3");
   expect("x = .5", "a number has digits on both sides of its point");
-  expect("method = bdf", "text stands in quotes: \"bdf\"");
+  expect("method = bdf", "a string needs quotes: \"bdf\"");
   expect("on = True", "write true or false");
   expect("method = “abc”", "quotes are \" or ', not “");
   expect("k : 3", "a key and its value have = between them");
   expect("k = ", "a value is missing");
-  expect("[element.crank pin]",
-         "a name with more than letters, digits, _ and - stands in quotes: [element.\"crank pin\"]");
-  expect("crank pin = 3", "a key with more than letters, digits, _ and - stands in quotes: \"crank pin\"");
+  expect("[element.crank pin]", "a name with more than letters, digits, _ and - needs quotes: [element.\"crank pin\"]");
+  expect("crank pin = 3", "a key with more than letters, digits, _ and - needs quotes: \"crank pin\"");
   expect("k = \"abc", "a quote is opened here and not closed");
 }
 
@@ -121,10 +120,10 @@ TEST(Messages, NamesWhatIsDefinedTwice)
   const auto expect = [](const std::string &text, int line, const std::string &hint)
   { expect_complaint(text, "scene.toml:" + std::to_string(line) + ": is not TOML here: " + hint); };
   expect("[element.\"crank pin\"]\nk = 1\n[element.\"crank pin\"]\nk = 2\n", 3,
-         "[element.\"crank pin\"] stands in the file twice");
-  expect("[element.'rod']\nk = 1\n[element.'rod']\n", 3, "[element.'rod'] stands in the file twice");
+         "[element.\"crank pin\"] is defined twice in the file");
+  expect("[element.'rod']\nk = 1\n[element.'rod']\n", 3, "[element.'rod'] is defined twice in the file");
   expect("[a.b]\nk = 1\n[[a.b]]\n", 3, "[a.b] is one table above");
-  expect("[body]\n\"x y\" = 1\n\"x y\" = 2\n", 3, "the key '\"x y\"' stands twice in this table");
+  expect("[body]\n\"x y\" = 1\n\"x y\" = 2\n", 3, "the key '\"x y\"' is defined twice in this table");
   expect("frame = \"a\"\n[frame.mesh]\nsize = 1\n", 2, "frame.mesh: the same name stands above for another value");
   expect("[body.slide]\nmass = 1\n[body]\nslide = 3\n", 4, "'slide' is already a table above");
   expect("a = [1, 2", 1, "the file ends inside an array");
@@ -161,7 +160,7 @@ TEST(Messages, AnUnknownSignalIsAnsweredInALine)
 TEST(Messages, AnElementOnABodyIsToldItsKey)
 {
   expect_complaint(rotor(1., "1 s") + "[element.f]\ntype = \"force\"\non = \"shaft\"\nconstant = \"1 N m\"\n",
-                   "on: 'shaft' is no measure; a body or an interface is named by `from`");
+                   "on: 'shaft' is not a measure; a body or an interface is named by `from`");
 }
 
 TEST(Messages, AShareAboveOneIsPercent)

@@ -161,7 +161,7 @@ TEST(Quantity, NonsenseIsRefusedWithTheReason)
                                           {"1e999", "range"},
                                           {"10^400", "finite"},
                                           {"log(0)", "finite"},
-                                          {"3 m^1.5", "whole number"},
+                                          {"3 m^1.5", "integer"},
                                           {"20 degC", "unknown unit"}})
     EXPECT_NE(quantity_complaint(text).find(reason), std::string::npos)
         << "\"" << text << "\": " << quantity_complaint(text);

@@ -35,7 +35,7 @@ std::string dry(const std::string &name)
 TEST(Starts, TwoThatStickOnOneMotionAreNamed)
 {
   expect_objection(slide + dry("guide") + dry("seal") + settings,
-                   {"element.seal: ", "\"seal\" sticks at the start and holds the motion of slide",
+                   {"element.seal: ", "\"seal\" sticks at the start and constrains the motion of slide",
                     "which \"guide\" holds too", "give it the type \"friction\""});
   EXPECT_EQ(objection(slide + dry("guide") + settings), "");
   EXPECT_EQ(objection(slide + dry("guide") + dry("seal") + start("v = { slide = 1 }") + settings), "");

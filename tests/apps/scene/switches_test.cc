@@ -342,15 +342,15 @@ TEST(Switches, RefuseWhatCannotBe)
       slider(2., "1 s") + push + spring + "[element.mass]\ntype = \"point mass\"\non = \"slide\"\nmass = 1\n";
   const auto refuses = [&](const std::string &order, const std::string &words, const Keys &more = {})
   { expect_complaint(machine + at_time(order, more), words); };
-  refuses("push of", "knows no order 'of'; it obeys");
-  refuses("spring brake", "knows no order 'brake'; it obeys 'on', 'off'");
+  refuses("push of", "does not accept the command 'of'; it accepts");
+  refuses("spring brake", "does not accept the command 'brake'; it accepts 'on', 'off'");
   refuses("mass off", "is a mass");
   refuses("pusch off", "there is no element or joint 'pusch'; did you mean 'push'?");
   refuses("push set", "the key 'to' is missing; it needs a force");
   refuses("push set", "switch.s.to", {{"to", "2 m"}});
   refuses("push off", "unknown key 'to'", {{"to", "2 N"}});
   refuses("push off", "only once", {{"repeat", "true"}});
-  refuses("push off", "goes with repeat", {{"hysteresis", "1 s"}});
+  refuses("push off", "needs repeat", {{"hysteresis", "1 s"}});
   refuses("push off", "switch.s.delay", {{"delay", "-1 s"}});
   refuses("push off", "there is no switch 'u'", {{"after", "u"}});
   refuses("push off", "in a circle", {{"after", "s"}});
@@ -381,7 +381,8 @@ TEST(Switches, RefuseWhatElementsCannotObey)
                              "motion = { speed = 1, brake = { family = \"linear\", duration = \"0.1 s\" } }\n";
   expect_complaint(slider(2., "1 s") + braked + at_time("feed brake", {{"jerk", "5"}}),
                    "takes neither an acceleration nor a jerk");
-  expect_complaint(slider(2., "1 s") + braked + at_time("feed hold"), "knows no order 'hold'; it obeys 'brake'");
+  expect_complaint(slider(2., "1 s") + braked + at_time("feed hold"),
+                   "does not accept the command 'hold'; it accepts 'brake'");
   // A name that is missing is mistaken for nothing that could not obey: a joint is never off.
   expect_complaint(slider(2., "1 s") + feed + push + at_time("feet off"),
                    "there is no element or joint 'feet'; valid: 'push'");

@@ -297,12 +297,12 @@ TEST(StickingJoints, RefuseWhatTheyCannotHold)
   { expect_refusal([&] { run(scene); }, words); };
   refused(
       with(sticking_incline + planar_body("arm", "1 kg", "1 kg m^2", "[0, 0, 0]"), "from = 'ground'", "from = 'arm'"),
-      "here both bodies turn");
+      "here both bodies rotate");
   refused("gravity = [0, 0, -10]\n" + rigid_body("bar", "2 kg", "[0.1, 0.1, 0.01]", "[0, 0, -0.5]") +
               revolute("pin", "ground", "bar", "[0, 0, 0]",
                        {{"axis", "[0, 1, 0]"}, {"friction", "{ law = 'dry', coefficient = 0.3, radius = '150 mm' }"}}) +
               steps("0.5 ms", "5 s"),
-          "turns freely in space");
+          "free spatial body");
 }
 
 } // namespace

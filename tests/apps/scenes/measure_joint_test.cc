@@ -354,7 +354,7 @@ TEST(MeasureJoint, BadInputIsToldWithItsPlace)
       "right angles");
   expect_complaint(
       joint("type = \"rack\"\nfrom = \"slide\"\nto = \"shaft\"\nradius = \"1 m\"\ndirection = [0, 1, 0]\n"),
-      "no rotor");
+      "not a rotor");
   expect_complaint(
       joint("type = \"rack\"\nfrom = \"shaft\"\nto = \"slide\"\nradius = \"1 m\"\ndirection = [1, 0, 0]\n"),
       "neither 'shaft' nor 'slide' can move along it"); // the slide moves along z

@@ -327,7 +327,7 @@ TEST(RigidBody, BadInputIsRefusedWithItsReason)
   expect_complaint(body("inertia = [[2, 0.1, 0], [0.2, 2, 0], [0, 0, 2]]\n"), "symmetric");
   expect_complaint(body("inertia = [[2, 0], [0, 2]]\n"), "three rows");
   expect_complaint(body("inertia = [1, 2, 2]\nprincipal_axes = [[1, 0, 0], [1, 1, 0]]\n"), "right angles");
-  expect_complaint(good + rotor_body("wheel", "1", "[0, 0, 1]", {{"on", "top"}}), "turns freely in space");
+  expect_complaint(good + rotor_body("wheel", "1", "[0, 0, 1]", {{"on", "top"}}), "is a free spatial body");
   expect_complaint(good + "[element.spring]\ntype = \"spring-damper\"\nfrom = \"top\"\nabout = [0, 0, 1]\n"
                           "stiffness = \"1 N m/rad\"\n",
                    "act on a [measure]");

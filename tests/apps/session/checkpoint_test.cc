@@ -215,5 +215,5 @@ TEST_F(CheckpointFile, RefusesAStateThatIsCutOrChanged)
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
   EXPECT_THAT(message(key), HasSubstr("is damaged"));
   std::ofstream(file) << "something else\n";
-  EXPECT_THAT(message(key), HasSubstr("is no checkpoint"));
+  EXPECT_THAT(message(key), HasSubstr("is not a checkpoint"));
 }

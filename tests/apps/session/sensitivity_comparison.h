@@ -38,7 +38,7 @@ constexpr double limit_smooth = 1e-6, limit_events = 1e-4;
  * runs over h, 2 h, 4 h ..., extrapolated to order 6.  What neighbours of these differ by is the error of a
  * difference, of truncation or of rounding of the runs; those known to a tenth of the limit count.
  *
- * Prints the row of the table in docs/sensitivities.md, and what is off.
+ * Prints the row of the table in docs/theory/sensitivities.md, and what is off.
  */
 Comparison compared_with_differences(const ComparedScene &compared);
 

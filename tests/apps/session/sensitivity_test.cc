@@ -101,7 +101,7 @@ TEST_F(OfFlight, WhatIsNoNumberOfTheMachineIsRefusedByName)
   { expect_refusal([&] { differentiated(Session(path_), keys); }, words); };
   refused("parameters.gapp", "has no entry \"gapp\"; did you mean 'gap'");
   refused("element.stop.stiffnes", "did you mean 'stiffness'");
-  refused("element.stop.side", "\"above\" is no number");
+  refused("element.stop.side", "\"above\" is not a number");
   refused("body.mass.axis", "is an array");
   refused("parameters.none", "is 0");
   refused("run.tolerance", "how the run is integrated");

@@ -173,7 +173,7 @@ TEST(Extremes, AreCarriedByTheModeThatMakesThem)
   const apps::Result       result = reported(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
   const apps::ExtremeSwing pull   = extreme_of(result, "F_P", false);
   EXPECT_EQ(pull.mode, 3);
-  EXPECT_NEAR(pull.mode_hz, 84.65, 0.05); // docs/press.md
+  EXPECT_NEAR(pull.mode_hz, 84.65, 0.05); // docs/how_to/case_press.md
   EXPECT_NEAR(pull.share, 0.86, 0.01);
   EXPECT_NEAR(pull.swing_hz, 76., 1.);
   EXPECT_THAT(pull.strain, ::testing::HasSubstr("rod"));
@@ -202,7 +202,7 @@ TEST(Story, IsOfTheMachineWhereItHappens)
     EXPECT_EQ(same[j].frequency_hz, modes[j].frequency_hz);
     EXPECT_EQ(same[j].energy, modes[j].energy);
   }
-  EXPECT_NEAR(modes[0].energy, 353., 2.); // docs/press.md; 0 J at dead centre
+  EXPECT_NEAR(modes[0].energy, 353., 2.); // docs/how_to/case_press.md; 0 J at dead centre
   EXPECT_NEAR(modes[1].energy, 14.7, 0.2);
   ASSERT_EQ(other.story->extremes.size(), at_fall.story->extremes.size());
   for (const auto &[signal, largest] : {std::pair("F_P", false), std::pair("M_T", true), std::pair("F_col", false)})
@@ -334,7 +334,7 @@ TEST(Strokes, OfThePressSettleOnTheWorkOfTheirCut)
   ASSERT_GE(at_top.size(), 4u);
   const double given = at_top[3][0] - at_top[2][0], taken = at_top[3][1] - at_top[2][1];
   EXPECT_NEAR(given, taken, 1e-3 * given);
-  EXPECT_NEAR(given, 5344.7, 5.); // docs/press.md
+  EXPECT_NEAR(given, 5344.7, 5.); // docs/how_to/case_press.md
   EXPECT_NEAR(slowest[2], slowest[3], 1e-4 * slowest[2]);
   EXPECT_LT(slowest[2], 0.94 * 3.2188); // it falls by 7 % of its largest speed
 }

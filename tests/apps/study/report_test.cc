@@ -88,7 +88,7 @@ TEST(StudyReport, OfAllThatAStudyFindsHasEverySectionAndNoReferenceOutsideIt)
   EXPECT_THAT(report.html, HasSubstr("No run has verified this point."));
   EXPECT_THAT(report.html, Not(HasSubstr("nan")));
   EXPECT_EQ(count_of(report.html, "http"), count_of(report.html, "http://www.w3.org/2000/svg"));
-  EXPECT_EQ(report.pictures.size(), 2u + 1u + 2u * 3u + 1u) << "effects; front; contour, slices, foretold; scatter";
+  EXPECT_EQ(report.pictures.size(), 2u + 1u + 2u * 3u + 1u) << "effects; front; contour, slices, predicted; scatter";
 }
 
 TEST(StudyReport, LeavesOutWhatWasNotAskedFor)

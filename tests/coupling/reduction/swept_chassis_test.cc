@@ -14,7 +14,8 @@ namespace
 
 TEST(SweptChassis, NeedsNoMoreThan150000CoordinatesForOnePerCent)
 {
-  // The script of hexahedra in meshes/ with two layers and cells of 60 mm, 650 925 coordinates (docs/benchmarks.md).
+  // The script of hexahedra in meshes/ with two layers and cells of 60 mm, 650 925 coordinates
+  // (docs/develop/benchmarks.md).
   const double reference[] = {10.584, 41.902, 52.890, 74.630};
   auto         frame       = fem::test::specification(GESTELL_SOURCE_DIR "/meshes/ladder_chassis.geo", 0.16);
   frame.unit               = 1e-3;

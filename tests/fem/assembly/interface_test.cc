@@ -183,7 +183,8 @@ TEST(PointCoupling, IsSofterTheSmallerItsSurface)
 TEST(Couplings, OfAPadOnAPlateAreRigidStiffestPointSoftest)
 {
   // A plate of 400 x 300 x 20 mm, clamped at one edge, with a pad of 100 x 100 mm in its middle.  The rigid pad
-  // stiffens the plate itself, the others leave it its own frequency.  The figures stand in docs/scene/frame.md.
+  // stiffens the plate itself, the others leave it its own frequency.  The figures stand in
+  // docs/how_to/supports_and_interfaces.md.
   fem::Mesh         mesh = box_mesh({8, 6, 1}, {0.4, 0.3, 0.02});
   std::vector<int> &pad  = mesh.surfaces["pad"];
   for (const int triangle : mesh.surfaces["z1"])

@@ -90,8 +90,8 @@ TEST(Memory, GrowsFasterThanTheNumberOfCoordinates)
 
 TEST(Memory, IsNotTakenForLessThanWasMeasured)
 {
-  // docs/benchmarks.md, 40 modes.  Of the press by a tenth more only: else small machines would refuse what they can
-  // do.
+  // docs/develop/benchmarks.md, 40 modes.  Of the press by a tenth more only: else small machines would refuse what
+  // they can do.
   struct Measured
   {
     double coordinates, gib, volume, skin;

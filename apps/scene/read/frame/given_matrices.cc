@@ -154,7 +154,7 @@ void join_rows(const SceneTable &frame, const std::string &key, const std::vecto
                                text_of_some(stiff) + " there); are they of different models?");
   if (!more.empty())
     frame.warn(key, count_text(more.size(), "row") +
-                        " of it are not in the stiffness, so that nothing holds them: " + text_of_some(more) +
+                        " of it are not in the stiffness, so that they are unconstrained: " + text_of_some(more) +
                         "; right for interfaces that hold the frame statically determinate, else "
                         "the files are of different models");
   for (const RowLabel &row : missing_rows(more, rows))
@@ -173,8 +173,9 @@ void require_named_alike(const SceneTable &frame, const LabelledMatrix &M, const
   if (is_named(M) == is_named(C) && (!B || is_named(*B) == is_named(C)))
     return;
   const std::string key = is_named(M) != is_named(C) ? "mass" : "damping";
-  throw frame.error(key, "does not tell what its rows are like the stiffness: one of the files names nodes and "
-                         "directions, the other counts rows; 'rows' names those of files that count (.dof, .mapping)");
+  throw frame.error(
+      key, "does not name nodes and directions of its rows in the same way as the stiffness: one of the files names "
+           "nodes and directions, the other counts rows; 'rows' names those of files that count (.dof, .mapping)");
 }
 
 Eigen::VectorXd scales(const std::vector<RowLabel> &rows, const FileUnits &units)
@@ -311,7 +312,8 @@ void turn_to_global(const SceneTable &frame, const std::map<long, Eigen::Matrix3
       const auto other = place.find({row.node, first + d});
       if (other == place.end())
         throw frame.error(frame.has("nodes") ? "nodes" : "stiffness",
-                          "node " + std::to_string(row.node) + " counts its motions along axes of its own (CD), and " +
+                          "node " + std::to_string(row.node) +
+                              " has its own displacement coordinate system (CD), and " +
                               text_of(RowLabel{row.node, first + d}) +
                               " has no row; all three are needed to turn them to the global axes");
       entries.emplace_back(other->second, int(i), turn->second(d, row.component - first));

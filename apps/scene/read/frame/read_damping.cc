@@ -76,16 +76,17 @@ const std::vector<Key> &damping_keys()
 {
   static const std::vector<Key> keys = {
       key::number("ratio", kind::number,
-                  "damping ratio of all elastic modes of the supported frame; `[0.01, 0.02]`: of the first, the second "
-                  "and all above; `[[\"20 Hz\", 0.01], [\"90 Hz\", 0.02]]`: over the frequency, linear between the "
-                  "rows, constant beyond")
+                  "damping ratio of all elastic modes of the supported frame; `[0.01, 0.02]`: of the first, and of the "
+                  "second and all higher modes; `[[\"20 Hz\", 0.01], [\"90 Hz\", 0.02]]`: over frequency, linear "
+                  "between the rows, constant beyond")
           .also({Key::Form::numbers, Key::Form::matrix})
           .by_default("`rayleigh`"),
       key::composed("rayleigh", Key::Form::tables, kind::number,
-                    {key::number("frequency", kind::frequency, "of a pair").above_zero(),
-                     key::number("ratio", kind::number, "damping ratio there")},
-                    "two pairs, by which B = αM + βC, in proportion to mass and stiffness of the plates; lower and "
-                    "higher modes are damped more. On clamped supports steps with many modes are cheaper with it")
+                    {key::number("frequency", kind::frequency, "frequency of a pair").above_zero(),
+                     key::number("ratio", kind::number, "damping ratio at this frequency")},
+                    "two pairs that determine B = αM + βC, proportional to mass and stiffness of the solids; modes "
+                    "below and above both frequencies are damped more. With clamped supports, steps with many modes "
+                    "are cheaper than for `ratio`")
           .by_default("`ratio`")};
   return keys;
 }

@@ -142,7 +142,7 @@ void read_degree(const SceneTable &table, fem::InterfaceSpecification &interface
     throw table.error("degree", "belongs to coupling = \"flexible\"; leave it out");
   if (degree < 1 || degree > largest)
     throw table.error("degree",
-                      "got " + std::to_string(degree) + "; needs a whole number from 1 to " + std::to_string(largest));
+                      "got " + std::to_string(degree) + "; needs an integer from 1 to " + std::to_string(largest));
 }
 
 fem::InterfaceSpecification read_interface(const SceneTable &any, const fem::FrameSpecification &frame)

@@ -34,7 +34,7 @@ void read_rows(const SceneTable &table, Eigen::Index n, fem::Interface &interfac
     const bool minus = key[0] == '-';
     const auto found = std::find(motion_names.begin(), motion_names.end(), key.substr(minus));
     if (found == motion_names.end())
-      throw rows.error(key, "is no motion; valid: " + listed(motion_names) +
+      throw rows.error(key, "is not a DOF; valid: " + listed(motion_names) +
                                 ", each with '-' before it if the row counts "
                                 "against the axis");
     const int motion = found - motion_names.begin(), row = rows.integer(key, 0);
@@ -159,7 +159,7 @@ std::vector<fem::Interface> named_nodes(const SceneTable &frame, const std::vect
     const auto refused = [&](const std::string &what)
     { return frame.error("nodes", node.place + "node '" + motions.name + "' " + what); };
     if (const auto [first, is_new] = place_of.emplace(motions.name, node.place); !is_new)
-      throw refused("is there already: " + first->second);
+      throw refused("already exists: " + first->second);
     for (int motion = 0; motion < 6; ++motion)
       if (const int row = motions.coordinate[motion] + 1; row > 0)
         if (const auto [first, is_new] = owner.emplace(row, motions.name + "." + motion_names[motion]); !is_new)

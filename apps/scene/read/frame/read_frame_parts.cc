@@ -32,16 +32,15 @@ std::vector<Key> without_reduced(std::vector<Key> keys)
 const std::vector<Key> &parts_frame_keys()
 {
   static const std::vector<Key> keys = {
-      key::table("part", {}, "`[frame.part.NAME]`, two at least").by_default(""),
-      key::table("joint", {}, "`[frame.joint.NAME]`, which hold the parts together").by_default(""),
+      key::table("part", {}, "`[frame.part.NAME]`, at least two").by_default(""),
+      key::table("joint", {}, "`[frame.joint.NAME]`, the joints between the parts").by_default(""),
       key::table("damping", damping_keys(),
-                 "by ratios of the modes of the joined frame, `{ ratio = 0.02 }`, beside what parts have; `rayleigh` "
-                 "belongs to the parts")
+                 "modal damping ratios of the joined frame, `{ ratio = 0.02 }`, in addition to the damping of the "
+                 "parts; `rayleigh` is a key of the parts")
           .by_default("that of the parts"),
-      key::choice(
-          "modes", {"by tolerance", "all"}, true,
-          "of the joined parts with the interfaces of the mechanism held: as many as `[reduction]` asks for, or "
-          "`\"all\"` that the reduced parts have, which changes nothing but the coordinates")};
+      key::choice("modes", {"by tolerance", "all"}, true,
+                  "modes of the joined parts with the interfaces of the mechanism fixed: as many as `[reduction]` "
+                  "requires, or `\"all\"` modes of the reduced parts, which changes only the coordinates")};
   return keys;
 }
 
@@ -49,19 +48,19 @@ const std::vector<Key> &frame_part_keys()
 {
   static const std::vector<Key> keys = joined(
       {without_reduced(frame_keys()),
-       {key::named("same_as", "an equal part elsewhere: only `placement` is given beside it. Equal parts are reduced "
-                              "once, whether they are said to be or not")
+       {key::named("same_as", "an equal part in another position, given only with `placement`. Equal parts are reduced "
+                              "once, even without this key")
             .by_default("`cad`"),
         key::table("placement",
-                   {key::vector("origin", kind::length, "where the part's origin lies").by_default("[0, 0, 0]"),
-                    key::direction("axis", "about which the part is turned").by_default("not turned"),
-                    key::number("angle", kind::angle, "by which it is turned").by_default("not turned"),
-                    key::direction("mirror", "normal of the plane through the part's origin in which it is mirrored, "
-                                             "before it is turned")
+                   {key::vector("origin", kind::length, "position of the origin of the part").by_default("[0, 0, 0]"),
+                    key::direction("axis", "axis of rotation").by_default("no rotation"),
+                    key::number("angle", kind::angle, "angle of rotation").by_default("no rotation"),
+                    key::direction(
+                        "mirror", "normal of the mirror plane through the origin of the part; mirrored before rotation")
                         .by_default("not mirrored")},
-                   "all that is said of the part is in its own coordinates; mirrored, then turned about `axis` through "
-                   "its origin, which then is moved to `origin`")
-            .by_default("the part's coordinates are the frame's")}});
+                   "placement of the part, whose keys are in its own coordinates: mirrored, then rotated about `axis` "
+                   "through its origin, which is then moved to `origin`")
+            .by_default("the coordinates of the part are those of the frame")}});
   return keys;
 }
 
@@ -70,38 +69,36 @@ const std::vector<Key> &frame_joint_keys()
   static const std::vector<Key> keys = {
       key::choice(
           "type", {"weld", "contact", "bolts", "tie rod"}, true,
-          "`\"weld\"`: the two interfaces move as one; `\"contact\"`: likewise, as long as they are pressed "
-          "together, which every run watches; `\"bolts\"`: springs and dampers; `\"tie rod\"`: a bar that pulls "
-          "the two together"),
+          "`\"weld\"`: the two interfaces move as one. `\"contact\"`: they move as one while pressed together, which "
+          "every run checks. `\"bolts\"`: springs and dampers. `\"tie rod\"`: a bar that pulls the two together"),
       key::plain("between", Key::Form::texts,
                  "two interfaces, `[\"crown.left foot\", \"left column.top\"]`: PART.INTERFACE"),
-      key::direction("normal", "of a contact, or of bolts with a `preload`: across the faces, from the first part to "
-                               "the second")
-          .by_default("demanded of a contact"),
-      key::number("tolerance", kind::length, "how far the nodes of the two may be apart; not of tie rods")
+      key::direction("normal",
+                     "normal of the faces, from the first part to the second, for a contact or bolts with `preload`")
+          .by_default("required for a contact"),
+      key::number("tolerance", kind::length, "largest distance of the two nodes; not for tie rods")
           .above_zero()
-          .by_default("a thousandth of the larger part"),
-      key::truth("keep", false,
-                 "the first interface of the joint carries something of the mechanism, too, as `frame.PART.INTERFACE`"),
+          .by_default("1/1000 of the larger part"),
+      key::truth("keep", false, "keep the first interface for the mechanism as well, as `frame.PART.INTERFACE`"),
       key::composed("positions", Key::Form::matrix, kind::length, {},
-                    "of bolts, in the frame: `[[x, y, z], ...]`, each with `stiffness` and `damping`")
-          .by_default("one, amid the interfaces"),
+                    "positions of bolts in the frame, `[[x, y, z], ...]`, each with `stiffness` and `damping`")
+          .by_default("one bolt, midway between the interfaces"),
       key::composed("axes", Key::Form::matrix, kind::number, {},
-                    "of bolts: the three values act along these two directions and the third at right angles to both")
+                    "for bolts: directions of the three values, these two and the perpendicular one")
           .by_default("x, y and z"),
-      per_direction_key("stiffness", kind::stiffness, "of each bolt, or `[x, y, z]` along `axes`"),
+      per_direction_key("stiffness", kind::stiffness, "stiffness of each bolt, or `[x, y, z]` along `axes`"),
       per_direction_key("rotational_stiffness", kind::torsional_stiffness,
-                        "of all bolts together against turning, beside what their places give"),
+                        "additional rotational stiffness of all bolts together"),
       per_direction_key("rotational_damping", kind::torsional_damping, "likewise"),
-      key::number("preload", kind::force, "of all bolts together, which the joint opens against; needs `normal`")
+      key::number("preload", kind::force, "preload of all bolts together, for the check of opening; needs `normal`")
           .above_zero()
           .by_default("not known"),
-      key::number("diameter", kind::length, "of a tie rod").above_zero().by_default("demanded of a tie rod"),
-      key::number("length", kind::length, "of a tie rod, by which it yields: E A / L")
+      key::number("diameter", kind::length, "diameter of a tie rod").above_zero().by_default("required for a tie rod"),
+      key::number("length", kind::length, "length of a tie rod; stiffness E A / L")
           .above_zero()
           .by_default("distance of the interfaces"),
       material_key(),
-      key::number("damping", kind::damping, "of a tie rod along it; of each bolt, or `[x, y, z]` along `axes`")
+      key::number("damping", kind::damping, "damping along a tie rod, or of each bolt, or `[x, y, z]` along `axes`")
           .from_zero()
           .also({Key::Form::vector})
           .by_default(0.),

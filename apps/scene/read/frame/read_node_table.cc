@@ -177,7 +177,7 @@ void place_by_numbers(const CsvFile &table, const Layout &layout, std::map<long,
     if (node == nodes.end())
       continue;
     if (!places.emplace(number, read.motions.position).second)
-      throw std::invalid_argument(read.place + "node " + std::to_string(number) + " is there already");
+      throw std::invalid_argument(read.place + "node " + std::to_string(number) + " already exists");
     node->second.motions.name = read.motions.name;
     node->second.place        = read.place;
   }
@@ -251,7 +251,7 @@ void require_same_axes(const FrameNodes &nodes, const coupling::ModelNodes &mode
   for (const auto &[number, x] : model.places)
     if (nodes.places.count(number) > 0 &&
         (axes_in(nodes.axes, number) - axes_in(model.axes, number)).cwiseAbs().maxCoeff() > same_axes)
-      throw std::invalid_argument("node " + std::to_string(number) + " counts its motions in another system in " +
+      throw std::invalid_argument("node " + std::to_string(number) + " has another displacement coordinate system in " +
                                   file + " (CD); keep one of them");
 }
 
