@@ -24,19 +24,6 @@ bool cross(const Side &a, const Side &b)
   return side(a, b[0]) * side(a, b[1]) < 0. && side(b, a[0]) * side(b, a[1]) < 0.;
 }
 
-/// Whether two outlines cross, or come too close for cells between them.
-bool touch(const std::vector<Side> &a, const std::vector<Side> &b)
-{
-  constexpr double near = 0.1; // of a side: cells between would be ten times as long as wide
-  for (const Side &p : a)
-    for (const Side &q : b)
-      if (const double room = near * std::min(std::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1]),
-                                              std::hypot(q[1][0] - q[0][0], q[1][1] - q[0][1]));
-          cross(p, q) || distance(p[0], q) < room || distance(q[0], p) < room)
-        return true;
-  return false;
-}
-
 /// From a face of the plate through all that lies below; empty if the plate is on both sides.
 std::pair<double, double> through_plate(const BrickLattice &lattice, int d, double level, const Point2 &x)
 {
@@ -62,6 +49,18 @@ std::pair<double, double> through_plate(const BrickLattice &lattice, int d, doub
 }
 
 } // namespace
+
+bool touch(const std::vector<Side> &a, const std::vector<Side> &b)
+{
+  constexpr double near = 0.1; // of a side: cells between would be ten times as long as wide
+  for (const Side &p : a)
+    for (const Side &q : b)
+      if (const double room = near * std::min(std::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1]),
+                                              std::hypot(q[1][0] - q[0][0], q[1][1] - q[0][1]));
+          cross(p, q) || distance(p[0], q) < room || distance(q[0], p) < room)
+        return true;
+  return false;
+}
 
 void add_footprints(PlateSolids &solids, const std::set<int> &contacts, double unit, double diagonal)
 {

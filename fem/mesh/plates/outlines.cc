@@ -54,17 +54,20 @@ std::vector<int> ends_of(int curve)
   return points;
 }
 
-/// Number of sides for the rotation of the tangent along an edge, as of a regular polygon; even.
-int sides_along(int edge, double unit)
+/// Number of sides for the rotation of the tangent along an edge, as of a regular polygon, and for its length; even.
+int sides_along(int edge, double unit, double longest)
 {
-  if (is_line(edge))
-    return 2;
-  const std::vector<Vector3> x    = points_along(edge, unit, points_of_curves);
-  double                     turn = 0.;
-  for (std::size_t i = 1; i + 1 < x.size(); ++i)
-    turn += std::acos(std::clamp(dot(fem::unit(x[i] - x[i - 1]), fem::unit(x[i + 1] - x[i])), -1., 1.));
+  const std::vector<Vector3> x      = points_along(edge, unit, is_line(edge) ? 1 : points_of_curves);
+  double                     length = 0., turn = 0.;
+  for (std::size_t i = 0; i + 1 < x.size(); ++i)
+  {
+    length += norm(x[i + 1] - x[i]);
+    if (i > 0)
+      turn += std::acos(std::clamp(dot(fem::unit(x[i] - x[i - 1]), fem::unit(x[i + 1] - x[i])), -1., 1.));
+  }
   constexpr int sides_of_circle = 16; // of the section of a hole: its area is 2.6 % small
-  return 2 * std::max(1, static_cast<int>(std::ceil(turn / (4. * std::acos(-1.) / sides_of_circle) - 1e-3)));
+  const double  pairs           = std::max(turn / (4. * std::acos(-1.) / sides_of_circle), 0.5 * length / longest);
+  return 2 * std::max(1, static_cast<int>(std::ceil(pairs - 1e-3)));
 }
 
 double distance(const Point2 &a, const Point2 &b)
@@ -112,11 +115,11 @@ FaceLoop face_loop(const std::vector<int> &edges, const DrawingPlane &plane)
   return loop;
 }
 
-Outline outline_of(const std::vector<int> &edges, const DrawingPlane &plane)
+Outline outline_of(const std::vector<int> &edges, const DrawingPlane &plane, double longest)
 {
   std::vector<std::pair<std::vector<Point2>, int>> curves; // and their edges
   for (const int edge : edges)
-    curves.emplace_back(drawn_along(edge, plane, sides_along(edge, plane.unit)), edge);
+    curves.emplace_back(drawn_along(edge, plane, sides_along(edge, plane.unit, longest)), edge);
   Outline outline;
   Point2  end = outline.min = outline.max = curves.front().first.front();
   while (!curves.empty())

@@ -42,7 +42,8 @@ std::vector<std::vector<int>> loops_of(const std::vector<int> &edges);
 FaceLoop face_loop(const std::vector<int> &edges, const DrawingPlane &plane);
 
 /// Sides in order, an even number for each edge, 16 for a circle.
-Outline outline_of(const std::vector<int> &edges, const DrawingPlane &plane);
+/// @param longest  side of an edge [m]
+Outline outline_of(const std::vector<int> &edges, const DrawingPlane &plane, double longest = 1e300);
 
 /// Whether a ray crosses an odd number of sides.
 bool is_inside(const std::vector<Side> &sides, const Point2 &x);

@@ -1,8 +1,8 @@
 #include "fem/mesh/plates/swept_solids.h"
 
 #include "fem/geometry/gmsh_faces.h"
+#include "fem/mesh/plates/extruded.h"
 #include "fem/mesh/plates/swept_mesh.h"
-#include "fem/mesh/plates/tubes.h"
 #include "fem/mesh/watched_meshing.h"
 #include "fem/values/vector3.h"
 
@@ -36,7 +36,7 @@ public:
   Sorting(const CadModel &model, const Selection &selection, const FrameSpecification &specification,
           const MeshOptions &options)
       : model_(model), selection_(selection), specification_(specification), options_(options),
-        faces_(all_faces(model)), tube_(model.solids.size())
+        faces_(all_faces(model)), extruded_(model.solids.size())
   {
   }
 
@@ -50,7 +50,7 @@ public:
       require_cells(mesh.extracted.mesh.n_cells(),
                     "swept solids have " + text(mesh.extracted.mesh.n_cells()) + " cells", options_);
     if (!meshes_.empty())
-      meshes_.front().extracted.mesh.statements = {wall_statement(walls_, n_tubes(), others_.empty())};
+      meshes_.front().extracted.mesh.statements = {wall_statement(walls_, n_extruded(), others_.empty())};
     return {std::move(meshes_), std::move(others_)};
   }
 
@@ -58,8 +58,6 @@ private:
   void sort(int i)
   {
     const Solid &solid = model_.solids[i];
-    if ((tube_[i] = tube_of(solid, faces_, model_.unit)))
-      return;
     try
     {
       const Axes axes  = plate_solids({solid}, faces_, model_.unit).axes;
@@ -67,27 +65,43 @@ private:
       if (group == axes_.end())
       {
         axes_.push_back(axes);
-        groups_.emplace_back();
+        groups_.push_back({i});
       }
-      groups_[group - axes_.begin()].push_back(i);
+      else
+        groups_[group - axes_.begin()].push_back(i);
     }
     catch (const NotSwept &reason)
     {
-      others_[i] = reason.what();
+      put_aside(i, reason.what());
     }
   }
 
+  /// A wall is extruded then if it can be.
   void put_aside(int i, const std::string &reason)
   {
-    others_[i] = reason;
-    tube_[i].reset();
     for (std::vector<int> &group : groups_)
       group.erase(std::remove(group.begin(), group.end(), i), group.end());
+    if (tried_.insert(i).second)
+      extruded_[i] = extruded(model_.solids[i], faces_, model_.unit);
+    else
+      extruded_[i].reset();
+    if (!extruded_[i])
+      others_.emplace(i, reason);
   }
 
-  int n_tubes() const
+  int n_extruded() const
   {
-    return static_cast<int>(std::count_if(tube_.begin(), tube_.end(), [](const auto &tube) { return bool(tube); }));
+    return static_cast<int>(
+        std::count_if(extruded_.begin(), extruded_.end(), [](const auto &solid) { return bool(solid); }));
+  }
+
+  /// Faces that others than these solids share.
+  std::set<int> contacts_with_others(const std::vector<int> &solids) const
+  {
+    std::set<int> faces;
+    for (const MeshContact &contact : contacts_of(model_, {{{}, solids}}))
+      faces.insert(contact.face);
+    return faces;
   }
 
   /// @return whether all could be swept; else some are put aside
@@ -97,11 +111,26 @@ private:
     for (const std::vector<int> &group : groups_)
       if (!group.empty() && !sweep(group))
         return false;
-    for (std::size_t i = 0; i < tube_.size(); ++i)
-      if (tube_[i])
-        meshes_.push_back(
-            {tube_mesh(*tube_[i], model_.solids[i], options_, head_of(specification_)), {static_cast<int>(i)}});
+    for (std::size_t i = 0; i < extruded_.size(); ++i)
+      if (extruded_[i] && !sweep_along(static_cast<int>(i)))
+        return false;
     return true;
+  }
+
+  bool sweep_along(int i)
+  {
+    try
+    {
+      meshes_.push_back(
+          {extruded_mesh(*extruded_[i], model_.solids[i], contacts_with_others({i}), options_, head_of(specification_)),
+           {i}});
+      return true;
+    }
+    catch (const NotSwept &reason)
+    {
+      put_aside(i, reason.what());
+      return false;
+    }
   }
 
   bool sweep(const std::vector<int> &solids)
@@ -109,8 +138,7 @@ private:
     PlateGroup group;
     for (const int i : solids)
       group.solids.push_back(model_.solids[i]);
-    for (const MeshContact &contact : contacts_of(model_, {{{}, solids}}))
-      group.contacts.insert(contact.face);
+    group.contacts = contacts_with_others(solids);
     try
     {
       SweptMesh mesh = swept_mesh(model_, group, faces_, selection_, specification_, options_);
@@ -188,17 +216,18 @@ private:
     return false;
   }
 
-  const CadModel                  &model_;
-  const Selection                 &selection_;
-  const FrameSpecification        &specification_;
-  const MeshOptions               &options_;
-  std::vector<Face>                faces_;
-  std::vector<std::optional<Tube>> tube_;   // of each solid
-  std::vector<Axes>                axes_;   // of groups
-  std::vector<std::vector<int>>    groups_; // solids
-  std::map<int, std::string>       others_;
-  std::vector<PartialMesh>         meshes_;
-  WallCount                        walls_;
+  const CadModel                      &model_;
+  const Selection                     &selection_;
+  const FrameSpecification            &specification_;
+  const MeshOptions                   &options_;
+  std::vector<Face>                    faces_;
+  std::vector<std::optional<Extruded>> extruded_; // of each solid
+  std::set<int>                        tried_;    // to be extruded
+  std::vector<Axes>                    axes_;     // of groups
+  std::vector<std::vector<int>>        groups_;   // solids
+  std::map<int, std::string>           others_;
+  std::vector<PartialMesh>             meshes_;
+  WallCount                            walls_;
 };
 
 } // namespace

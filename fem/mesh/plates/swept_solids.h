@@ -19,8 +19,8 @@ struct SweptSolids
 };
 
 /**
- * Sweeps walls, those with parallel faces in one mesh, and tubes; see swept_mesh() and tube_mesh().  What cannot be
- * swept or joined with the others remains.
+ * Sweeps walls, those with parallel faces in one mesh, and solids along an axis; see swept_mesh() and extruded_mesh().
+ * What cannot be swept or joined with the others remains.
  *
  * @throws std::invalid_argument for too many cells.
  */

@@ -82,23 +82,22 @@ WallCount count_walls(const BrickLattice &lattice, const Sheets &sheets)
           walls.all};
 }
 
-std::string wall_statement(const WallCount &walls, int n_tubes, bool alone)
+std::string wall_statement(const WallCount &walls, int n_extruded, bool alone)
 {
+  const std::string along =
+      number(n_extruded, "solid") + " swept along " + (n_extruded == 1 ? "its axis" : "their axes");
   if (walls.bricks + walls.regions == 0)
-    return number(n_tubes, "tube") + " swept along " + (n_tubes == 1 ? "its axis" : "their axes");
+    return "hexahedra: " + along;
   const std::string pieces =
       number(walls.bricks, "brick") +
       (walls.regions == 0 ? "" : " and " + number(walls.regions, "region") + " around holes and footprints") +
-      (n_tubes == 0
-           ? ""
-           : ", of " + number(n_tubes, "tube") + " swept along " + (n_tubes == 1 ? "its axis" : "their axes")) +
-      (alone ? ", without tetrahedra" : ", and of tetrahedra");
+      (n_extruded == 0 ? "" : ", of " + along) + (alone ? ", without tetrahedra" : ", and of tetrahedra");
   if (walls.walls == 0)
     return "plates are swept: none is three times as wide as thick; the mesh consists of " + pieces;
   const bool alike = walls.thickest - walls.thinnest < 1e-6 * walls.thickest;
   return "plates are swept: " + number(walls.walls, "wall") + ", " +
          (alike ? "" : text(1e3 * walls.thinnest) + " to ") + text(1e3 * walls.thickest) + " mm thick, are " +
-         text(std::round(100. * walls.volume / walls.all)) + " % of the swept volume; the mesh consists of " + pieces;
+         text(std::round(100. * walls.volume / walls.all)) + " % of their volume; the mesh consists of " + pieces;
 }
 
 } // namespace gestell::fem

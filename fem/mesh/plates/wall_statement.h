@@ -21,6 +21,6 @@ WallCount count_walls(const BrickLattice &lattice, const Sheets &sheets);
 
 /// "plates are swept: 29 walls, 10 to 16 mm thick, are 94 % of the volume; 230 bricks ..."
 /// @param alone  whether no other solids remain
-std::string wall_statement(const WallCount &walls, int n_tubes, bool alone);
+std::string wall_statement(const WallCount &walls, int n_extruded, bool alone);
 
 } // namespace gestell::fem
