@@ -27,16 +27,17 @@ Eigen::Map<const Eigen::Vector3d> point_of(const QuadraticMesh &mesh, int node)
   return Eigen::Map<const Eigen::Vector3d>(mesh.points[node].data());
 }
 
-/// The functions of a hexahedron, products of parabolas.
-Vector27 functions_at(const Eigen::Vector3d &xi)
+/// The functions of a hexahedron, products of parabolas, or their derivatives along one direction of the cell.
+Vector27 functions_at(const Eigen::Vector3d &xi, int along = -1)
 {
   static const Eigen::Matrix3Xd nodes = reference_cell(CellKind::hexahedron).nodes;
   Vector27                      N     = Vector27::Ones();
   for (int d = 0; d < 3; ++d)
   {
-    const double x = xi[d], at[] = {(1. - 2. * x) * (1. - x), 4. * x * (1. - x), x * (2. * x - 1.)};
+    const double x = xi[d], value[] = {(1. - 2. * x) * (1. - x), 4. * x * (1. - x), x * (2. * x - 1.)},
+                 slope[] = {4. * x - 3., 4. - 8. * x, 4. * x - 1.};
     for (int a = 0; a < 27; ++a)
-      N[a] *= at[std::lround(2. * nodes(d, a))];
+      N[a] *= (d == along ? slope : value)[std::lround(2. * nodes(d, a))];
   }
   return N;
 }
@@ -82,17 +83,6 @@ public:
     return out.cwiseProduct(length_).norm();
   }
 
-private:
-  /// Corner k is at the bits of k.
-  static double along(int k, int d, double x) { return (k >> d) & 1 ? x : 1. - x; }
-
-  Eigen::Vector3d at(const Eigen::Vector3d &xi) const
-  {
-    Eigen::Vector3d x = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 8; ++k)
-      x += along(k, 0, xi[0]) * along(k, 1, xi[1]) * along(k, 2, xi[2]) * corners_.col(k);
-    return x;
-  }
   Eigen::Matrix3d derivatives(const Eigen::Vector3d &xi) const
   {
     Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
@@ -103,6 +93,18 @@ private:
         J.col(d) += ((k >> d) & 1 ? 1. : -1.) * along(k, e, xi[e]) * along(k, f, xi[f]) * corners_.col(k);
       }
     return J;
+  }
+
+private:
+  /// Corner k is at the bits of k.
+  static double along(int k, int d, double x) { return (k >> d) & 1 ? x : 1. - x; }
+
+  Eigen::Vector3d at(const Eigen::Vector3d &xi) const
+  {
+    Eigen::Vector3d x = Eigen::Vector3d::Zero();
+    for (int k = 0; k < 8; ++k)
+      x += along(k, 0, xi[0]) * along(k, 1, xi[1]) * along(k, 2, xi[2]) * corners_.col(k);
+    return x;
   }
 
   Eigen::Matrix<double, 3, 8> corners_;
@@ -129,20 +131,23 @@ public:
 
   void find(const Eigen::Vector3d &x, TiedPoint &point) const
   {
-    double nearest = 1e300;
-    for (std::size_t i = 0; i < shapes_.size() && nearest > 0.; ++i)
-      if (shapes_[i].distance_of_box(x) < nearest)
-      {
-        const Eigen::Vector3d xi     = shapes_[i].place(x);
-        const double          beyond = shapes_[i].beyond(xi);
-        if (!(beyond < nearest))
-          continue;
-        nearest    = beyond;
-        point.cell = cells_[i];
-        point.xi   = xi;
-      }
-    point.gap     = nearest;
-    point.leading = functions_at(point.xi);
+    std::size_t     own = 0;
+    Eigen::Vector3d xi  = Eigen::Vector3d::Zero();
+    point.gap           = 1e300;
+    for (std::size_t i = 0; i < shapes_.size() && point.gap > 0.; ++i)
+      if (shapes_[i].distance_of_box(x) < point.gap)
+        if (const Eigen::Vector3d place = shapes_[i].place(x); shapes_[i].beyond(place) < point.gap)
+        {
+          point.gap = shapes_[i].beyond(place);
+          own       = i;
+          xi        = place;
+        }
+    point.cell    = cells_[own];
+    point.leading = functions_at(xi);
+    Eigen::Matrix<double, 27, 3> local;
+    for (int d = 0; d < 3; ++d)
+      local.col(d) = functions_at(xi, d);
+    point.leading_gradients = local * shapes_[own].derivatives(xi).inverse();
   }
 
 private:
@@ -271,6 +276,30 @@ void tie_meshes(const QuadraticMesh &mesh, const std::set<int> &excluded, Multip
     for (int d = 0; d < 3; ++d)
       tie_along(d, of, excluded, constraints);
   }
+}
+
+double tie_work(const QuadraticMesh &mesh, const std::vector<TiedPoint> &points, const CellMaterials &materials,
+                const Eigen::VectorXd &u)
+{
+  double work = 0.;
+  for (const TiedPoint &point : points)
+  {
+    Eigen::Vector3d jump = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d H    = Eigen::Matrix3d::Zero(); // du_i / dx_j
+    for (Eigen::Index i = 0; i < point.N.size(); ++i)
+      jump += point.N[i] * u.segment<3>(3 * point.nodes[i]);
+    for (int a = 0; a < 27; ++a)
+    {
+      const Eigen::Vector3d own = u.segment<3>(3 * mesh.nodes(point.cell)[a]);
+      jump -= point.leading[a] * own;
+      H += own * point.leading_gradients.row(a);
+    }
+    const Material &material = materials[point.cell];
+    const double    lambda   = material.E * material.nu / ((1. + material.nu) * (1. - 2. * material.nu)),
+                 mu          = material.E / (2. * (1. + material.nu));
+    work += point.area * (lambda * H.trace() * point.normal + mu * (H + H.transpose()) * point.normal).dot(jump);
+  }
+  return std::abs(work);
 }
 
 } // namespace gestell::fem

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/assembly/affine_constraints.h"
+#include "fem/assembly/cell_materials.h"
 #include "fem/assembly/quadratic_mesh.h"
 
 #include <Eigen/Core>
@@ -18,10 +19,10 @@ struct TiedPoint
   std::vector<int>             nodes;     ///< of the face
   Eigen::VectorXd              N;         ///< their functions
   int                          cell = 0;
-  Eigen::Matrix<double, 27, 1> leading;  ///< functions of the nodes of the cell
-  Eigen::Vector3d              xi;       ///< in the cell; beyond it by the gap
-  double                       gap = 0.; ///< [m]
-  Eigen::Vector3d              normal;   ///< out of the face
+  Eigen::Matrix<double, 27, 1> leading;           ///< functions of the nodes of the cell
+  Eigen::Matrix<double, 27, 3> leading_gradients; ///< [1/m]
+  double                       gap = 0.;          ///< by which the point is beyond the cell [m]
+  Eigen::Vector3d              normal;            ///< out of the face
 };
 
 /// Quadrature points of the faces of a tie.
@@ -38,5 +39,14 @@ std::vector<TiedPoint> tied_points(const QuadraticMesh &mesh, const QuadraticTie
  * @param excluded  nodes whose displacements others depend on, of interfaces and masses
  */
 void tie_meshes(const QuadraticMesh &mesh, const std::set<int> &excluded, MultipointConstraints &constraints);
+
+/**
+ * Work of the stresses of the leading cells at the gap between both sides of a tie,  |int (sigma n) (u - u_cell) dA|
+ * [J]: by which an energy is wrong.
+ *
+ * @param u  displacements [3 n_nodes]
+ */
+double tie_work(const QuadraticMesh &mesh, const std::vector<TiedPoint> &points, const CellMaterials &materials,
+                const Eigen::VectorXd &u);
 
 } // namespace gestell::fem
