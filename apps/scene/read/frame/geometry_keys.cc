@@ -53,10 +53,12 @@ const std::vector<Key> &mesh_keys()
           .into(&Mesh::overlaps, {fem::Overlaps::refused, fem::Overlaps::once}),
       key::choice(
           "plates", {"tetrahedra", "swept"}, true,
-          "`\"swept\"` meshes solids whose walls stand at right angles to each other in hexahedra through the "
-          "thickness, narrow along the edges of plates and up to `size` wide amid them: of thin plates far fewer "
-          "coordinates for the same accuracy. Holes straight through a plate are swept around with it; with any "
-          "other face all is meshed in tetrahedra, and a note names the face")
+          "`\"swept\"` meshes walls in hexahedra through the thickness, narrow along the edges of plates and up to "
+          "`size` wide between them: thin plates need far fewer coordinates for the same accuracy. Tubes, pins and "
+          "other "
+          "solids with a constant section are swept along their axis. Each remaining solid becomes tetrahedra, and a "
+          "note "
+          "gives the reason. Meshes that do not match are tied at their common faces")
           .into(&Mesh::plates, {fem::Plates::tetrahedra, fem::Plates::swept}),
       key::plain("layers", Key::Form::whole, "of cells through a swept plate, at least").by_default(&Mesh::layers),
       key::truth(
