@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -59,21 +60,20 @@ public:
 
   double distance_of_box(const Eigen::Vector3d &x) const { return box_.exteriorDistance(x); }
 
-  /// Newton's method from the middle.
-  Eigen::Vector3d place(const Eigen::Vector3d &x) const
+  /// Newton's method from the middle; none if it does not converge, as for some points outside.
+  std::optional<Eigen::Vector3d> place(const Eigen::Vector3d &x) const
   {
-    Eigen::Vector3d xi        = Eigen::Vector3d::Constant(0.5);
-    constexpr int   most      = 20;
-    constexpr auto  converged = 1e-14;
+    Eigen::Vector3d  xi        = Eigen::Vector3d::Constant(0.5);
+    constexpr int    most      = 20;
+    constexpr double converged = 1e-12, on_face = 1e-11; // functions that vanish on a face do so exactly
     for (int i = 0; i < most; ++i)
     {
       const Eigen::Vector3d step = derivatives(xi).partialPivLu().solve(x - at(xi));
       xi += step;
       if (step.cwiseAbs().maxCoeff() < converged)
-        break;
+        return xi.unaryExpr([](double c) { return std::abs(c - std::round(c)) < on_face ? std::round(c) : c; });
     }
-    constexpr double on_face = 1e-11; // functions that vanish on a face do so exactly
-    return xi.unaryExpr([](double x) { return std::abs(x - std::round(x)) < on_face ? std::round(x) : x; });
+    return std::nullopt;
   }
 
   /// By which a place is beyond the cell [m].
@@ -136,11 +136,11 @@ public:
     point.gap           = 1e300;
     for (std::size_t i = 0; i < shapes_.size() && point.gap > 0.; ++i)
       if (shapes_[i].distance_of_box(x) < point.gap)
-        if (const Eigen::Vector3d place = shapes_[i].place(x); shapes_[i].beyond(place) < point.gap)
+        if (const auto place = shapes_[i].place(x); place && shapes_[i].beyond(*place) < point.gap)
         {
-          point.gap = shapes_[i].beyond(place);
+          point.gap = shapes_[i].beyond(*place);
           own       = i;
-          xi        = place;
+          xi        = *place;
         }
     point.cell    = cells_[own];
     point.leading = functions_at(xi);

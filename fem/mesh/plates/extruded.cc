@@ -18,9 +18,9 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double parallel = 1e-5; // [rad], as of the faces of plates
-constexpr double same     = 1e-5; // of the extent: digits of CAD files
-const double     pi       = std::acos(-1.);
+constexpr double parallel   = 1e-5; // [rad], as of the faces of plates
+constexpr double same_place = 1e-5; // of the extent: digits of CAD files
+const double     pi         = std::acos(-1.);
 
 Vector3 normal_to(const Vector3 &axis)
 {
@@ -75,11 +75,11 @@ void find_tube(Extruded &result)
   };
   const Point2 centre = middle(result.sides.front());
   for (const Face &face : result.sides)
-    if (const Point2 own = middle(face); std::hypot(own[0] - centre[0], own[1] - centre[1]) > same * *outer ||
-                                         std::min(face.radius - *inner, *outer - face.radius) > same * *outer)
+    if (const Point2 own = middle(face); std::hypot(own[0] - centre[0], own[1] - centre[1]) > same_place * *outer ||
+                                         std::min(face.radius - *inner, *outer - face.radius) > same_place * *outer)
       return;
   const double ring = pi * (*outer * *outer - *inner * *inner);
-  if (*outer - *inner < same * *outer || std::abs(ring - result.area) > same * result.area)
+  if (*outer - *inner < same_place * *outer || std::abs(ring - result.area) > same_place * result.area)
     return; // a pin, or a half of a tube
   result.inner  = *inner;
   result.outer  = *outer;
@@ -111,7 +111,7 @@ std::optional<Extruded> extruded_along(const Vector3 &axis, const Solid &solid, 
       std::minmax_element(ends.begin(), ends.end(), [&](auto &x, auto &y) { return level(x) < level(y); });
   result.from                 = level(*low);
   result.to                   = level(*high);
-  const double      tolerance = same * norm(solid.max - solid.min);
+  const double      tolerance = same_place * norm(solid.max - solid.min);
   std::vector<Face> lower, upper;
   for (const Face &face : ends)
   {
@@ -228,7 +228,7 @@ int nearest_face(const std::vector<Face> &faces, const Vector3 &x, double unit)
 
 int surface_at(const Extruded &extruded, const Vector3 &x)
 {
-  const double level = dot(x, extruded.axes[2]), tolerance = same * (extruded.to - extruded.from);
+  const double level = dot(x, extruded.axes[2]), tolerance = same_place * (extruded.to - extruded.from);
   if (std::min(level - extruded.from, extruded.to - level) > tolerance)
     return nearest_face(extruded.sides, x, extruded.unit);
   const bool upper = extruded.to - level < level - extruded.from;

@@ -9,7 +9,7 @@ namespace gestell::fem
 namespace
 {
 
-double distance(const Point2 &x, const Side &side)
+double distance_to(const Point2 &x, const Side &side)
 {
   const auto &[a, b] = side;
   const double u = b[0] - a[0], v = b[1] - a[1];
@@ -17,7 +17,7 @@ double distance(const Point2 &x, const Side &side)
   return std::hypot(a[0] + t * u - x[0], a[1] + t * v - x[1]);
 }
 
-bool cross(const Side &a, const Side &b)
+bool crosses(const Side &a, const Side &b)
 {
   const auto side = [](const Side &s, const Point2 &x)
   { return (s[1][0] - s[0][0]) * (x[1] - s[0][1]) - (s[1][1] - s[0][1]) * (x[0] - s[0][0]); };
@@ -57,7 +57,7 @@ bool touch(const std::vector<Side> &a, const std::vector<Side> &b)
     for (const Side &q : b)
       if (const double room = near * std::min(std::hypot(p[1][0] - p[0][0], p[1][1] - p[0][1]),
                                               std::hypot(q[1][0] - q[0][0], q[1][1] - q[0][1]));
-          cross(p, q) || distance(p[0], q) < room || distance(q[0], p) < room)
+          crosses(p, q) || distance_to(p[0], q) < room || distance_to(q[0], p) < room)
         return true;
   return false;
 }
