@@ -31,12 +31,6 @@ Vector3 normal_to(const Vector3 &axis)
   return unit(cross(axis, other));
 }
 
-/// Factor from the radius of a circle to that of the corners of a polygon of equal area, whose sides turn by an angle.
-double corner_factor(double turn)
-{
-  return std::sqrt(turn / std::sin(turn));
-}
-
 /// Edges of one end face only, which are around the section.
 std::vector<int> outer_edges(const std::vector<Face> &faces)
 {
@@ -155,35 +149,13 @@ SectionMesh ring_section(const Extruded &tube, const MeshOptions &options)
   return mesh;
 }
 
-/// Corners on curves, moved so that the polygon has the area of the curves.
-std::vector<Point2> corners_of(const Outline &outline)
-{
-  std::vector<Point2> corners;
-  const std::size_t   n = outline.sides.size();
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const std::size_t before = (i + n - 1) % n;
-    const Point2      p = outline.sides[before][0], x = outline.sides[i][0], q = outline.sides[i][1];
-    const double      u0 = x[0] - p[0], u1 = x[1] - p[1], v0 = q[0] - x[0], v1 = q[1] - x[1];
-    const double      turn = std::abs(std::atan2(u0 * v1 - u1 * v0, u0 * v0 + u1 * v1));
-    corners.push_back(x);
-    if (outline.edge[before] != outline.edge[i] || !(turn > parallel))
-      continue;
-    const double chord = 0.5 * (std::hypot(u0, u1) + std::hypot(v0, v1)), radius = 0.5 * chord / std::sin(0.5 * turn);
-    const double out[] = {x[0] - 0.5 * (p[0] + q[0]), x[1] - 0.5 * (p[1] + q[1])}, length = std::hypot(out[0], out[1]);
-    for (int k = 0; k < 2; ++k)
-      corners.back()[k] += (corner_factor(turn) - 1.) * radius * out[k] / length;
-  }
-  return corners;
-}
-
 /// Quadrilaterals between the outline, holes and footprints on the ends.
 SectionMesh plane_section(const Extruded &extruded, const std::set<int> &contacts, const MeshOptions &options)
 {
   const DrawingPlane   plane{extruded.axes, 2, extruded.unit};
   std::vector<Outline> outlines;
   for (const std::vector<int> &loop : loops_of(extruded.outline))
-    outlines.push_back(outline_of(loop, plane, options.size));
+    outlines.push_back(of_equal_area(outline_of(loop, plane, options.size)));
   const auto extent = [](const Outline &o) { return std::hypot(o.max[0] - o.min[0], o.max[1] - o.min[1]); };
   const auto around = std::max_element(outlines.begin(), outlines.end(),
                                        [&](const Outline &a, const Outline &b) { return extent(a) < extent(b); });
@@ -195,7 +167,7 @@ SectionMesh plane_section(const Extruded &extruded, const std::set<int> &contact
     if (contacts.count(face.tag) > 0)
       for (const FaceLoop &loop : face.loops)
       {
-        Outline footprint = outline_of(loop.edges, plane, options.size);
+        Outline footprint = of_equal_area(outline_of(loop.edges, plane, options.size));
         if (std::any_of(outlines.begin(), outlines.end(),
                         [&](const Outline &other) { return touch(other.sides, footprint.sides); }))
           continue;

@@ -75,7 +75,7 @@ void add_footprints(PlateSolids &solids, const std::set<int> &contacts, double u
       continue;
     for (const FaceLoop &loop : face.loops)
     {
-      const Outline outline  = outline_of(loop.edges, {solids.axes, face.direction, unit});
+      const Outline outline  = of_equal_area(outline_of(loop.edges, {solids.axes, face.direction, unit}));
       const auto [from, to]  = through_plate(lattice, face.direction, face.level, outline.sides.front()[0]);
       const auto overlapping = [&, from = from, to = to](const PlateHole &hole) {
         return hole.direction == face.direction && hole.from < to && from < hole.to && touch(hole.sides, outline.sides);

@@ -148,6 +148,52 @@ Outline outline_of(const std::vector<int> &edges, const DrawingPlane &plane, dou
   return outline;
 }
 
+double corner_factor(double turn)
+{
+  return std::sqrt(turn / std::sin(turn));
+}
+
+Outline of_equal_area(const Outline &outline)
+{
+  std::vector<Point2> corners;
+  const std::size_t   n = outline.sides.size();
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const std::size_t before = (i + n - 1) % n;
+    const Point2      p = outline.sides[before][0], x = outline.sides[i][0], q = outline.sides[i][1];
+    const double      u0 = x[0] - p[0], u1 = x[1] - p[1], v0 = q[0] - x[0], v1 = q[1] - x[1];
+    const double      turn = std::abs(std::atan2(u0 * v1 - u1 * v0, u0 * v0 + u1 * v1));
+    corners.push_back(x);
+    constexpr double straight_line = 1e-5; // [rad]
+    if (outline.edge[before] != outline.edge[i] || !(turn > straight_line))
+      continue;
+    const double chord = 0.5 * (std::hypot(u0, u1) + std::hypot(v0, v1)), radius = 0.5 * chord / std::sin(0.5 * turn);
+    const double out[] = {x[0] - 0.5 * (p[0] + q[0]), x[1] - 0.5 * (p[1] + q[1])}, length = std::hypot(out[0], out[1]);
+    for (int k = 0; k < 2; ++k)
+      corners.back()[k] += (corner_factor(turn) - 1.) * radius * out[k] / length;
+  }
+  Outline result = outline;
+  result.min = result.max = corners.front();
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    result.sides[i] = {corners[i], corners[(i + 1) % n]};
+    for (int k = 0; k < 2; ++k)
+    {
+      result.min[k] = std::min(result.min[k], corners[i][k]);
+      result.max[k] = std::max(result.max[k], corners[i][k]);
+    }
+  }
+  return result;
+}
+
+std::vector<Point2> corners_of(const Outline &outline)
+{
+  std::vector<Point2> corners;
+  for (const Side &side : outline.sides)
+    corners.push_back(side[0]);
+  return corners;
+}
+
 bool is_inside(const std::vector<Side> &sides, const Point2 &x)
 {
   bool inside = false;

@@ -45,6 +45,15 @@ FaceLoop face_loop(const std::vector<int> &edges, const DrawingPlane &plane);
 /// @param longest  side of an edge [m]
 Outline outline_of(const std::vector<int> &edges, const DrawingPlane &plane, double longest = 1e300);
 
+/// Factor from the radius of a circle to that of the corners of a polygon of equal area, whose sides turn by an angle.
+double corner_factor(double turn);
+
+/// The outline with corners on curves moved so that the polygon has the area of the curves.
+Outline of_equal_area(const Outline &outline);
+
+/// First corners of the sides.
+std::vector<Point2> corners_of(const Outline &outline);
+
 /// Whether a ray crosses an odd number of sides.
 bool is_inside(const std::vector<Side> &sides, const Point2 &x);
 
