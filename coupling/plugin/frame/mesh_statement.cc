@@ -170,9 +170,10 @@ MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatric
     warns = !(high < coarse) || (!raised && thin_walls && walls.median_ratio > long_beside_wall);
     if (warns)
       text += std::string("; `gestell modes --converge 0.01` of a frame from CAD refines until they are within 1 %") +
-              (mesh.cells.empty() ? ""
-                                  : ", hexahedra through thin walls (mesh.plates = \"swept\") need far fewer "
-                                    "coordinates");
+              (mesh.cells.empty() || !mesh.hexahedra.empty()
+                   ? ""
+                   : ", hexahedra through thin walls (mesh.plates = \"swept\") need far fewer "
+                     "coordinates");
   }
   return {std::move(text), warns};
 }
