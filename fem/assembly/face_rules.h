@@ -24,4 +24,7 @@ struct FaceRules
 };
 const FaceRules &face_rules();
 
+/// The same on each of 16 equal parts of a face, for functions that are smooth between lines across it.
+const FaceRules &fine_face_rules();
+
 } // namespace gestell::fem

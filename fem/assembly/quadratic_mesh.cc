@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 namespace gestell::fem
 {
@@ -240,6 +241,16 @@ void number_skin(const Mesh &mesh, const OuterNodes &outer, QuadraticMesh &resul
   }
   for (std::size_t k = 2 * mesh.skin_quads.size(); k < mesh.skin.size(); ++k)
     result.skin.push_back(outer.triangle(mesh.skin[k]));
+  for (const auto &[faces, cells, solids] : mesh.ties)
+  {
+    QuadraticTie tie{{}, {}, cells, solids};
+    for (const auto &[a, b, c, d] : faces)
+      if (d < 0)
+        tie.triangles.push_back(outer.triangle({a, b, c}));
+      else
+        tie.quads.push_back(outer.quadrilateral({a, b, c, d}));
+    result.ties.push_back(std::move(tie));
+  }
 }
 
 } // namespace

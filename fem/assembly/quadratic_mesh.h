@@ -6,12 +6,22 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace gestell::fem
 {
 
 struct Grid;
+
+/// Faces that move with cells whose nodes are others, see MeshTie.
+struct QuadraticTie
+{
+  std::vector<std::array<int, 6>> triangles; ///< as in QuadraticMesh::skin
+  std::vector<std::array<int, 9>> quads;     ///< as in QuadraticMesh::skin_quads
+  std::vector<int>                cells;     ///< hexahedra that lead
+  std::array<std::string, 2>      solids;    ///< names: of the faces, of the cells
+};
 
 /**
  * Nodes of quadratic cells (10 of a tetrahedron, 27 of a hexahedron, 18 of a prism): corners of a mesh, middles of its
@@ -29,8 +39,9 @@ struct QuadraticMesh
   std::vector<char>                curved;    ///< of each tetrahedron whether one of its edges is; empty if none is
   std::vector<std::array<int, 6>>  skin; ///< corners a b c, then the middles of ab, bc, ca; same order as Mesh::skin
   std::vector<std::array<int, 9>>  skin_quads; ///< FE_Q(2) of two dimensions; same order as Mesh::skin_quads
-  std::vector<int>                 node_of;    ///< node at point i of the mesh, or -1 if no cell uses it
-  std::shared_ptr<const Grid>      grid;       ///< the cells as deal.II's Triangulation
+  std::vector<QuadraticTie>        ties;
+  std::vector<int>                 node_of; ///< node at point i of the mesh, or -1 if no cell uses it
+  std::shared_ptr<const Grid>      grid;    ///< the cells as deal.II's Triangulation
 
   int  n_nodes() const { return static_cast<int>(points.size()); }
   int  n_cells() const { return static_cast<int>(cells.size() + hexahedra.size() + prisms.size()); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/geometry/cad_model.h"
 #include "fem/values/frame_specification.h"
 
 #include <cstddef>
@@ -21,5 +22,9 @@ std::vector<std::size_t> solids_of(const std::pair<std::string, Material> &named
 /// The material of each solid: the last of specification.materials whose pattern matches its name, else
 /// specification.material.  @throws as solids_of() does.
 std::vector<Material> materials_of(const FrameSpecification &specification, const std::vector<std::string> &solids);
+
+/// States whose density counts, of the file or of the specification.
+/// @throws std::invalid_argument if a solid has none, or one that no material has.
+void check_materials(CadModel &model, const FrameSpecification &specification);
 
 } // namespace gestell::fem

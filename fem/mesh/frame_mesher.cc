@@ -16,7 +16,7 @@
 #include "fem/mesh/mesh_groups.h"
 #include "fem/mesh/mesh_quality.h"
 #include "fem/mesh/mesh_size.h"
-#include "fem/mesh/plates/swept_mesh.h"
+#include "fem/mesh/plates/swept_solids.h"
 #include "fem/mesh/point_freedom.h"
 #include "fem/mesh/solid_volumes.h"
 #include "fem/mesh/watched_meshing.h"
@@ -29,6 +29,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace gestell::fem
 {
@@ -66,47 +67,6 @@ Selection select_all(CadModel &model, const FrameSpecification &specification)
   }
   require_faces_of_one_owner(selection, model.faces, specification);
   return selection;
-}
-
-/// Whose density counts, before the mesh, which may take long.
-void check_materials(CadModel &model, const FrameSpecification &specification)
-{
-  std::vector<std::string> names;
-  for (const Solid &solid : model.solids)
-    names.push_back(solid.name);
-  const std::vector<Material>                     materials = materials_of(specification, names);
-  std::map<std::string, std::vector<std::string>> of_file, differ; // solids by text
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    const Solid      &solid = model.solids[i];
-    const Material   &given = materials[i];
-    const std::string own =
-        text(solid.density) + " kg/m^3" + (solid.material.empty() ? "" : " (" + solid.material + ")");
-    if (given.E == 0.)
-      continue; // only the mesh is wanted
-    if (given.rho == 0. && solid.density == 0.)
-      throw std::invalid_argument((given.place.empty() ? specification.place : given.place) +
-                                  ": no density rho is given, and " + specification.cad + " has none for solid \"" +
-                                  solid.name + "\"; add one, such as rho = \"7850 kg/m^3\" of steel.");
-    constexpr double balsa = 50., osmium = 25000.; // [kg/m^3] outside, the file has another unit
-    if (given.rho == 0. && (solid.density < balsa || solid.density > osmium))
-      throw std::invalid_argument(specification.place + ": the density of solid \"" + solid.name + "\" is " + own +
-                                  " in " + specification.cad +
-                                  ", which no solid material has; correct its unit, or add rho to the material.");
-    constexpr double rounding = 1e-3; // of a density in a CAD file: three or four digits
-    if (given.rho == 0.)
-      of_file["the density is " + own + ", from the file"].push_back(solid.name);
-    else if (solid.density > 0. && std::abs(given.rho / solid.density - 1.) > rounding)
-      differ["the density is " + text(given.rho) + " kg/m^3, but " + own + " in the file"].push_back(solid.name);
-  }
-  const auto lines = [](const auto &solids_by_text, std::vector<std::string> &result)
-  {
-    for (const auto &[words, solids] : solids_by_text)
-      result.push_back("solid \"" + solids.front() + "\"" +
-                       (solids.size() > 1 ? " and " + std::to_string(solids.size() - 1) + " more" : "") + ": " + words);
-  };
-  lines(of_file, model.statements);
-  lines(differ, model.notes);
 }
 
 /// Sides of hexahedra and prisms are straight.
@@ -241,24 +201,68 @@ MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &spec
   return options;
 }
 
-/// @return whether plates were to be swept and could be; otherwise a note gives the reason.
-bool sweep(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options)
+/// Meshes the solids in gmsh, without judging memory.
+void mesh_by_gmsh(MeshedModel &result, const MeshAttempt &attempt, const GmshSession &session,
+                  const SurfaceSizes &sizes, const ChildProgress &progress)
 {
-  if (options.plates != Plates::swept)
-    return false;
-  try
+  const FrameSpecification &specification = attempt.specification;
+  const auto                report        = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  gmsh::option::setNumber("Mesh.MeshSizeMax", sizes.options.size / result.model.unit);
+  report(mesh_phase::surfaces);
+  mesh_surfaces(result.model, result.selection, specification, session, sizes);
+  report(mesh_phase::volumes);
+  mesh_volumes(result.model, specification, session);
+  result.extracted = extract_mesh(result.model, head_of(specification), {sizes.options.bodies, 0.});
+  require_straight(result.extracted, specification);
+  require_cells(result.extracted.mesh.n_cells(),
+                "the mesh has " + std::to_string(result.extracted.mesh.n_cells()) + " cells", sizes.options);
+}
+
+void improve(MeshedModel &result, const MeshOptions &options)
+{
+  if (!result.extracted.mesh.only_tetrahedra())
+    return;
+  improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
+  if (options.curved)
+    follow_geometry(result.extracted, result.model);
+}
+
+/// The swept solids, and the others in tetrahedra.
+void join_swept(MeshedModel &result, SweptSolids swept, const MeshAttempt &attempt, const GmshSession &session,
+                SurfaceSizes sizes, const ChildProgress &progress)
+{
+  const FrameSpecification &specification = attempt.specification;
+  const int                 bodies        = std::exchange(sizes.options.bodies, 0);
+  note_others(result.model, swept, sizes.options);
+  if (!swept.others.empty())
   {
-    result.extracted      = swept_mesh(result.model, result.selection, specification, options);
-    result.expected_cells = 0.; // an estimate for tetrahedra
-    return true;
+    MeshedModel rest;
+    rest.model     = alone_in_gmsh(result.model, swept);
+    rest.selection = among(rest.model.faces, result.selection);
+    if (specification.mesh.size == 0.)
+      sizes.options.size = size_for_cells(rest.model, cells_by_default);
+    if (!sizes.script_has_sizes) // fields refer to faces that are gone
+    {
+      remove_size_fields();
+      set_smallest_as_background(surface_size_fields(rest.model, sizes.options, rest.selection));
+    }
+    judge_features(rest, sizes.options);
+    mesh_by_gmsh(rest, attempt, session, sizes, progress);
+    improve(rest, sizes.options);
+    PartialMesh last{std::move(rest.extracted), {}};
+    for (const auto &other : swept.others)
+      last.solids.push_back(other.first);
+    swept.meshes.push_back(std::move(last));
+    for (std::string &note : rest.model.notes)
+      result.model.notes.push_back(std::move(note));
+    for (std::string &statement : rest.model.statements)
+      result.model.statements.push_back(std::move(statement));
   }
-  catch (const NotSwept &reason)
-  {
-    result.model.notes.push_back(options.place + ": plates are meshed with tetrahedra instead of swept, because " +
-                                 std::string(reason.what()));
-    judge_features(result, options);
-    return false;
-  }
+  result.extracted                     = joined(result.model, swept.meshes, bodies, head_of(specification));
+  result.extracted.mesh.takes_one_size = true;
+  result.expected_cells                = 0.; // an estimate for tetrahedra
+  note_volumes(result.extracted.mesh, result.model.solids, sizes.options);
+  judge_memory(result, specification);
 }
 
 void mesh_geometry(MeshedModel &result, const MeshAttempt &attempt, const GmshSession &session, MissingSize missing,
@@ -267,35 +271,24 @@ void mesh_geometry(MeshedModel &result, const MeshAttempt &attempt, const GmshSe
   const FrameSpecification &specification    = attempt.specification;
   const bool                script_has_sizes = has_size_fields();
   MeshOptions               options          = prepare_geometry(result, specification, missing);
-  const auto                report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
   if (options.plates == Plates::swept)
-    report(mesh_phase::plates);
-  if (sweep(result, specification, options))
   {
-    note_volumes(result.extracted.mesh, result.model.solids, options);
-    return judge_memory(result, specification);
+    progress ? progress(mesh_phase::plates, -1.) : void();
+    SweptSolids swept = sweep_solids(result.model, result.selection, specification, options);
+    if (!swept.meshes.empty())
+      return join_swept(result, std::move(swept), attempt, session,
+                        {options, std::nullopt, script_has_sizes, attempt.walls}, progress);
+    result.model.notes.push_back(options.place + ": plates are meshed with tetrahedra instead of swept, because " +
+                                 swept.others.begin()->second);
+    judge_features(result, options);
+    if (specification.mesh.size == 0.) // chosen for what is not swept
+      options.size = result.size = size_for_cells(result.model, cells_by_default);
   }
-  if (specification.mesh.size == 0.) // chosen for what is not swept
-    options.size = result.size = size_for_cells(result.model, cells_by_default);
-  gmsh::option::setNumber("Mesh.MeshSizeMax", options.size / result.model.unit);
   const auto field = refined.empty() ? std::nullopt : std::optional(SizeField(refined, options.size));
-  report(mesh_phase::surfaces);
-  mesh_surfaces(result.model, result.selection, specification, session,
-                {options, field, script_has_sizes, attempt.walls});
-  report(mesh_phase::volumes);
-  mesh_volumes(result.model, specification, session);
-  result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
-  require_straight(result.extracted, specification);
-  require_cells(result.extracted.mesh.n_cells(),
-                "the mesh has " + std::to_string(result.extracted.mesh.n_cells()) + " cells", options);
+  mesh_by_gmsh(result, attempt, session, {options, field, script_has_sizes, attempt.walls}, progress);
   if (refined.empty()) // who refines judges beforehand
     judge_memory(result, specification);
-  if (result.extracted.mesh.only_tetrahedra())
-  {
-    improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
-    if (options.curved)
-      follow_geometry(result.extracted, result.model);
-  }
+  improve(result, options);
   note_volumes(result.extracted.mesh, result.model.solids, options);
 }
 

@@ -56,6 +56,9 @@ void set_local_sizes(const std::optional<SizeField> &refined, const FaceSizes &f
 /// Creates gmsh's fields for the sizes on named surfaces.
 std::vector<double> surface_size_fields(const CadModel &model, const MeshOptions &options, const Selection &selection);
 
+/// Removes all of gmsh's fields.
+void remove_size_fields();
+
 /// Makes the smallest of gmsh's fields the size everywhere.
 void set_smallest_as_background(const std::vector<double> &fields);
 

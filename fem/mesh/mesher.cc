@@ -9,12 +9,19 @@ namespace gestell::fem
 {
 
 template <typename Archive>
+void exchange(Archive &archive, MeshTie &tie)
+{
+  auto &[faces, cells, solids] = tie;
+  archive(faces, cells, solids);
+}
+
+template <typename Archive>
 void exchange(Archive &archive, Mesh &mesh)
 {
-  auto &[points, cells, hexahedra, prisms, cell_solid, skin, skin_quads, solids, densities, middles, takes_one_size,
-         notes, statements, surfaces] = mesh;
-  archive(points, cells, hexahedra, prisms, cell_solid, skin, skin_quads, solids, densities, middles, takes_one_size,
-          notes, statements, surfaces);
+  auto &[points, cells, hexahedra, prisms, cell_solid, skin, skin_quads, solids, densities, middles, ties,
+         takes_one_size, notes, statements, surfaces] = mesh;
+  archive(points, cells, hexahedra, prisms, cell_solid, skin, skin_quads, solids, densities, middles, ties,
+          takes_one_size, notes, statements, surfaces);
 }
 
 template <typename Archive>

@@ -7,6 +7,7 @@
 #include "fem/assembly/elasticity.h"
 #include "fem/assembly/interfaces.h"
 #include "fem/assembly/mass_integrals.h"
+#include "fem/assembly/mesh_ties.h"
 #include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/rigid_motions.h"
 #include "fem/assembly/sparse_sum.h"
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace gestell::fem
@@ -169,6 +171,10 @@ MultipointConstraints constrain(const QuadraticMesh &mesh, const std::vector<Sup
 {
   hold(supports, constraints);
   tie_interfaces(coupled, mesh, constraints);
+  std::set<int> of_interfaces;
+  for (const CoupledPatch &patch : coupled)
+    of_interfaces.insert(patch.patch.nodes.begin(), patch.patch.nodes.end());
+  tie_meshes(mesh, of_interfaces, constraints);
   return constraints;
 }
 

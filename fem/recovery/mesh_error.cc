@@ -1,6 +1,7 @@
 #include "fem/recovery/mesh_error.h"
 
 #include "fem/assembly/elasticity.h"
+#include "fem/assembly/mesh_ties.h"
 #include "fem/recovery/patch_recovery.h"
 
 #include <algorithm>
@@ -70,6 +71,27 @@ Eigen::MatrixXd MeshError::of_cells(const Eigen::Ref<const Eigen::MatrixXd> &q) 
       for (const int cell : cells)
         result.row(cell).segment(first, fields) = of_cell(mesh_, material, cell, at_nodes, rule, u, smooth);
     }
+  }
+  return result;
+}
+
+Eigen::VectorXd MeshError::of_ties(const Eigen::Ref<const Eigen::MatrixXd> &q) const
+{
+  if (mesh_.ties.empty())
+    return {};
+  Eigen::VectorXd       result = Eigen::VectorXd::Zero(q.cols());
+  const Eigen::MatrixXd u      = [&]
+  {
+    Eigen::MatrixXd all(affine_.n_displacements(), q.cols());
+    for (Eigen::Index field = 0; field < q.cols(); ++field)
+      all.col(field) = affine_.expand(q.col(field));
+    return all;
+  }();
+  for (const QuadraticTie &tie : mesh_.ties)
+  {
+    const std::vector<TiedPoint> points = tied_points(mesh_, tie);
+    for (Eigen::Index field = 0; field < q.cols(); ++field)
+      result[field] += 2. * tie_work(mesh_, points, materials_, u.col(field));
   }
   return result;
 }

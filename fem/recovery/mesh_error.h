@@ -1,8 +1,8 @@
 #pragma once
 
 #include "fem/assembly/affine_constraints.h"
-#include "fem/assembly/cell_parts.h"
 #include "fem/assembly/cell_materials.h"
+#include "fem/assembly/cell_parts.h"
 #include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/raised_degree.h"
 
@@ -39,6 +39,10 @@ public:
    * @return   eta_K^2 of every cell and field [n_cells x k].
    */
   Eigen::MatrixXd of_cells(const Eigen::Ref<const Eigen::MatrixXd> &q) const;
+
+  /// For every field the work at the ties between meshes, by which twice its strain energy is wrong [k], see
+  /// tie_work(); empty without ties.
+  Eigen::VectorXd of_ties(const Eigen::Ref<const Eigen::MatrixXd> &q) const;
 
   /// The frame in elements of degree three on the same mesh.
   RaisedFrame raised(const FrameMatrices &frame) const

@@ -12,6 +12,14 @@ namespace gestell::fem
 
 using Point3 = std::array<double, 3>; ///< [m]
 
+/// Faces of cells that move with cells whose nodes are others.
+struct MeshTie
+{
+  std::vector<std::array<int, 4>> faces;  ///< corners in order around it; the last of a triangle is -1
+  std::vector<int>                cells;  ///< that lead, of which some are at each face
+  std::array<std::string, 2>      solids; ///< names: of the faces, of the cells
+};
+
 /// Mesh of a frame with tetrahedra, hexahedra and prisms, numbered in this order; SI.  Edges are straight except those
 /// in `middles`.  Faces are ordered so that their normal points outwards.
 struct Mesh
@@ -29,6 +37,8 @@ struct Mesh
 
   /// For meshes of tetrahedra: middles of curved edges, by the points at their ends, the smaller first.
   std::map<std::array<int, 2>, Point3> middles;
+
+  std::vector<MeshTie> ties; ///< cells that lead belong to no face of a later tie
 
   bool takes_one_size = false; ///< swept, or made by a script: a size field does not refine it
 

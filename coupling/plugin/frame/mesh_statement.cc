@@ -42,13 +42,20 @@ Modes modes_of(const ReducedModel &reduced)
   return {n_rigid, std::move(ritz), std::move(omega), within};
 }
 
-/// Errors of frequencies from the stresses of the first mode, the last one and some between them.
-Eigen::VectorXd by_stresses(const Modes &modes, const ReducedModel &reduced, const fem::MeshError &mesh_error)
+/// The first mode, the last one and some between them.
+std::vector<int> some_of(const Modes &modes)
 {
   std::vector<int> looked_at;
   constexpr int    most_modes = 6; // modes whose stresses are computed: each costs as much as a static solution
   for (int j = 0, count = std::min(modes.within, most_modes); j < count; ++j)
     looked_at.push_back(modes.n_rigid + (count > 1 ? j * (modes.within - 1) / (count - 1) : 0));
+  return looked_at;
+}
+
+/// Errors of frequencies from the stresses of some modes.
+Eigen::VectorXd by_stresses(const Modes &modes, const ReducedModel &reduced, const fem::MeshError &mesh_error)
+{
+  const std::vector<int> looked_at = some_of(modes);
   Eigen::VectorXd share = mesh_error.of_cells(reduced.basis.T * modes.ritz.V(Eigen::all, looked_at)).colwise().sum();
   share.array() /= modes.ritz.omega(looked_at).array().square();
   return share.unaryExpr([](double s) { return fem::relative_frequency_error(s); });
@@ -119,6 +126,16 @@ MeshErrorEstimate modal_mesh_error(const ReducedModel &reduced, const fem::Frame
   return {by_stresses(modes, reduced, mesh_error), limit, false};
 }
 
+double tie_error(const ReducedModel &reduced, const fem::MeshError &mesh_error)
+{
+  const Modes modes = modes_of(reduced);
+  if (mesh_error.mesh().ties.empty() || modes.within <= 0)
+    return 0.;
+  const std::vector<int> looked_at = some_of(modes);
+  const Eigen::VectorXd  work      = mesh_error.of_ties(reduced.basis.T * modes.ritz.V(Eigen::all, looked_at));
+  return 0.5 * (work.array() / modes.ritz.omega(looked_at).array().square()).maxCoeff();
+}
+
 MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                              const fem::MeshError &mesh_error, const fem::Mesh &mesh)
 {
@@ -144,15 +161,19 @@ MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatric
               rounded(walls.median_ratio, 3) + " times on average (thinnest wall " +
               rounded(1000. * walls.thinnest, 3) + " mm)" +
               (raised ? "" : ", whose bending error the stresses do not show");
+    if (const std::size_t ties = mesh.ties.size(); ties > 0)
+      text += "; " + std::to_string(ties) + (ties == 1 ? " tie" : " ties") +
+              " between meshes of solids change them by up to " + percent(tie_error(reduced, mesh_error), 2);
     constexpr double coarse = 0.02; // error from which it is a warning, with a way out
     // element size over thickness above which stresses miss much of the error in bending
     constexpr double long_beside_wall = 2.;
     warns = !(high < coarse) || (!raised && thin_walls && walls.median_ratio > long_beside_wall);
     if (warns)
       text += std::string("; `gestell modes --converge 0.01` of a frame from CAD refines until they are within 1 %") +
-              (mesh.cells.empty() ? ""
-                                  : ", hexahedra through thin walls (mesh.plates = \"swept\") need far fewer "
-                                    "coordinates");
+              (mesh.cells.empty() || !mesh.hexahedra.empty()
+                   ? ""
+                   : ", hexahedra through thin walls (mesh.plates = \"swept\") need far fewer "
+                     "coordinates");
   }
   return {std::move(text), warns};
 }

@@ -27,6 +27,9 @@ struct MeshErrorEstimate
 MeshErrorEstimate modal_mesh_error(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                                    const fem::MeshError &mesh_error, bool thin_walls);
 
+/// Largest relative error of the same frequencies by the ties between meshes of solids, see fem::tie_work().
+double tie_error(const ReducedModel &reduced, const fem::MeshError &mesh_error);
+
 /// Whether a frame of n coordinates is small enough for elements of degree three, which need its matrices.
 bool may_be_raised(const fem::MeshError &mesh_error, double n);
 

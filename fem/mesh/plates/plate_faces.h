@@ -1,8 +1,8 @@
 #pragma once
 
 #include "fem/geometry/cad_model.h"
+#include "fem/mesh/plates/outlines.h"
 
-#include <array>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,17 +14,8 @@ namespace gestell::fem
 class NotSwept : public std::runtime_error
 {
 public:
-  using std::runtime_error::runtime_error;
-};
-
-using Point2 = std::array<double, 2>;
-using Side   = std::array<Point2, 2>;
-
-/// A closed line of edges around a face or a hole in it.
-struct FaceLoop
-{
-  std::vector<int>  edges; ///< tags of gmsh
-  std::vector<Side> sides; ///< curves as polygons [m]
+  explicit NotSwept(const std::string &reason, int of_solid = -1) : std::runtime_error(reason), solid(of_solid) {}
+  int solid; ///< among those to be swept; -1: not known
 };
 
 /// A face normal to an axis of its solids.  A point (x0 x1 x2) in these axes has the coordinates x_(d + 1) and x_(d +
@@ -38,7 +29,7 @@ struct PlateFace
   Point2                min{}, max{};
 };
 
-/// A straight hole through material, with walls parallel to an axis.
+/// A straight hole through material, with walls parallel to an axis; or the footprint of another solid on it.
 struct PlateHole
 {
   int               direction = 0; ///< of its axis
@@ -46,12 +37,14 @@ struct PlateHole
   std::vector<Side> sides; ///< of its section
   std::vector<int>  wall;  ///< tag of the face on each side
   Point2            min{}, max{};
+  int               solid  = 0;     ///< that has it
+  bool              filled = false; ///< a footprint: the material continues inside
 };
 
 /// Solids with all faces normal to three axes, except the walls of holes.
 struct PlateSolids
 {
-  std::array<Vector3, 3>        axes; ///< right-handed, of unit length
+  Axes                          axes;
   std::vector<PlateFace>        faces;
   std::vector<std::vector<int>> of_solid; ///< into faces
   std::vector<PlateHole>        holes;    ///< their loops are not among those of faces
@@ -60,11 +53,18 @@ struct PlateSolids
   static bool contains(const PlateFace &face, const Point2 &x);
 };
 
+/// All faces of the solids, including those between two of them.
+std::vector<Face> all_faces(const CadModel &model);
+
+/// A face at right angles to an axis.
+PlateFace plate_face(const Face &face, const DrawingPlane &plane);
+
 /**
- * The faces of the solids in gmsh in their own axes, the normals of most of their area.
+ * The faces of solids in gmsh in their own axes, the normals of most of their area.
  *
+ * @param all  faces of these solids and others
  * @throws NotSwept with the first face that is neither normal to an axis nor the wall of a straight through hole.
  */
-PlateSolids plate_solids(const CadModel &model);
+PlateSolids plate_solids(const std::vector<Solid> &solids, const std::vector<Face> &all, double unit);
 
 } // namespace gestell::fem

@@ -78,7 +78,7 @@ public:
     return geo::addCurveLoop(lines);
   }
 
-  SectionMesh meshed(int surface)
+  SectionMesh meshed(const std::vector<int> &surfaces)
   {
     SectionMesh                result;
     std::map<std::size_t, int> index; // of gmsh's nodes
@@ -90,28 +90,35 @@ public:
       gmsh::model::mesh::getNodes(tags, x, u, 0, point_[i]);
       index[tags.at(0)] = static_cast<int>(i);
     }
+    for (const int surface : surfaces)
+      add_points(surface, index, result);
+    for (const int surface : surfaces)
+      for (const GmshElements &elements : elements_of(2, surface))
+        for (std::size_t j = 0; j < elements.nodes.size(); j += static_cast<std::size_t>(elements.n_nodes))
+        {
+          std::vector<int> corners;
+          for (int k = 0; k < elements.n_corners; ++k)
+            corners.push_back(index.at(elements.nodes[j + k]));
+          if (area(result, corners) < 0.)
+            std::reverse(corners.begin(), corners.end());
+          divide(corners, result);
+        }
+    return result;
+  }
+
+private:
+  void add_points(int surface, std::map<std::size_t, int> &index, SectionMesh &mesh) const
+  {
     std::vector<std::size_t> tags;
     std::vector<double>      x, u;
     gmsh::model::mesh::getNodes(tags, x, u, 2, surface);
     for (std::size_t i = 0; i < tags.size(); ++i)
     {
-      index[tags[i]] = static_cast<int>(result.points.size());
-      result.points.push_back({origin_[0] + scale_ * x[3 * i], origin_[1] + scale_ * x[3 * i + 1]});
+      index[tags[i]] = static_cast<int>(mesh.points.size());
+      mesh.points.push_back({origin_[0] + scale_ * x[3 * i], origin_[1] + scale_ * x[3 * i + 1]});
     }
-    for (const GmshElements &elements : elements_of(2, surface))
-      for (std::size_t j = 0; j < elements.nodes.size(); j += static_cast<std::size_t>(elements.n_nodes))
-      {
-        std::vector<int> corners;
-        for (int k = 0; k < elements.n_corners; ++k)
-          corners.push_back(index.at(elements.nodes[j + k]));
-        if (area(result, corners) < 0.)
-          std::reverse(corners.begin(), corners.end());
-        divide(corners, result);
-      }
-    return result;
   }
 
-private:
   /// A cell of n corners into n quadrilaterals about its middle.
   void divide(const std::vector<int> &corners, SectionMesh &mesh)
   {
@@ -159,22 +166,55 @@ private:
   std::map<std::pair<int, int>, int>    amid_;    // points in the middle of two others
 };
 
+std::vector<Side> sides_of(const std::vector<Point2> &points)
+{
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sides.push_back({points[i], points[(i + 1) % points.size()]});
+  return sides;
+}
+
+/// For each line the one that is directly around it, -1 for the outline.
+std::vector<int> around(const std::vector<InnerLine> &lines)
+{
+  std::vector<std::vector<int>> outside(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (std::size_t j = 0; j < lines.size(); ++j)
+      if (i != j && is_inside(sides_of(lines[j].points), lines[i].points.front()))
+        outside[i].push_back(static_cast<int>(j));
+  std::vector<int> result;
+  for (const std::vector<int> &all : outside) // the one that most others are around
+    result.push_back(all.empty()
+                         ? -1
+                         : *std::max_element(all.begin(), all.end(),
+                                             [&](int a, int b) { return outside[a].size() < outside[b].size(); }));
+  return result;
+}
+
 } // namespace
 
-SectionMesh section_mesh(const std::vector<Point2> &outline, const std::vector<std::vector<Point2>> &holes)
+SectionMesh section_mesh(const std::vector<Point2> &outline, const std::vector<InnerLine> &lines)
 {
-  const ModelAside aside;
-  Drawing          drawing(outline);
-  std::vector<int> loops = {drawing.draw(outline)};
-  for (const std::vector<Point2> &hole : holes)
-    loops.push_back(drawing.draw(hole));
-  const int surface = gmsh::model::geo::addPlaneSurface(loops);
-  gmsh::model::geo::mesh::setRecombine(2, surface);
+  const ModelAside              aside;
+  Drawing                       drawing(outline);
+  std::vector<std::vector<int>> loops = {{drawing.draw(outline)}}; // of the outline's area, then of that in each line
+  for (const InnerLine &line : lines)
+    loops.push_back({drawing.draw(line.points)});
+  const std::vector<int> beyond = around(lines);
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    loops[beyond[i] + 1].push_back(loops[i + 1].front());
+  std::vector<int> surfaces;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    if (i == 0 || lines[i - 1].filled)
+    {
+      surfaces.push_back(gmsh::model::geo::addPlaneSurface(loops[i]));
+      gmsh::model::geo::mesh::setRecombine(2, surfaces.back());
+    }
   gmsh::model::geo::synchronize();
   try
   {
     gmsh::model::mesh::generate(2);
-    return drawing.meshed(surface);
+    return drawing.meshed(surfaces);
   }
   catch (const std::exception &error)
   {

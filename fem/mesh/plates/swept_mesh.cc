@@ -3,9 +3,9 @@
 #include "fem/mesh/cell_measures.h"
 #include "fem/mesh/mixed_extraction.h"
 #include "fem/mesh/plates/cell_widths.h"
+#include "fem/mesh/plates/footprints.h"
 #include "fem/mesh/plates/section_mesh.h"
 #include "fem/mesh/plates/swept_regions.h"
-#include "fem/mesh/plates/wall_statement.h"
 #include "fem/mesh/watched_meshing.h"
 #include "fem/values/vector3.h"
 
@@ -26,9 +26,9 @@ using Limits = std::array<std::vector<std::vector<double>>, 3>; // of each sheet
 class Sweeping
 {
 public:
-  Sweeping(const CadModel &model, const Selection &selection, const FrameSpecification &specification,
-           const MeshOptions &options)
-      : model_(model), specification_(specification), options_(options), solids_(plate_solids(model)),
+  Sweeping(const CadModel &model, const PlateGroup &group, PlateSolids solids, const Selection &selection,
+           const FrameSpecification &specification, const MeshOptions &options)
+      : group_(group), specification_(specification), options_(options), solids_(std::move(solids)),
         lattice_(lattice_with_regions(solids_, model.diagonal())), sheets_(sheets_of(lattice_))
   {
     sort_faces();
@@ -36,10 +36,10 @@ public:
     judge_cells();
   }
 
-  ExtractedMesh mesh()
+  SweptMesh mesh()
   {
     Mesh &mesh = result_.mesh;
-    for (const Solid &solid : model_.solids)
+    for (const Solid &solid : group_.solids)
       mesh.solids.push_back(solid.name);
     std::set<std::array<int, 3>> done;
     for (std::size_t brick = 0; brick < lattice_.size(); ++brick)
@@ -51,13 +51,12 @@ public:
     constexpr double worst_corner = 0.02; // corner_quality() of cells around holes
     for (int cell = 0; cell < mesh.n_cells(); ++cell)
       if (corner_quality(mesh, cell) < worst_corner)
-        throw NotSwept("cells around the hole near " + text(mesh.points[mesh.corners(cell)[0]]) + " m would fold");
+        throw NotSwept("cells around the hole near " + text(mesh.points[mesh.corners(cell)[0]]) + " m would fold",
+                       mesh.cell_solid[cell]);
     check_volumes();
-    mesh.takes_one_size = true;
-    mesh.statements.push_back(wall_statement(lattice_, sheets_));
-    add_skin(result_, head_of(specification_), options_.bodies,
+    add_skin(result_, head_of(specification_), 0, // bodies: any number
              [&](const std::vector<int> &corners) { return surface_of(corners); });
-    return std::move(result_);
+    return {std::move(result_), count_walls(lattice_, sheets_)};
   }
 
 private:
@@ -134,7 +133,7 @@ private:
   void check_volumes() const
   {
     const Mesh         &mesh = result_.mesh;
-    std::vector<double> volumes(model_.solids.size(), 0.);
+    std::vector<double> volumes(group_.solids.size(), 0.);
     for (int cell = 0; cell < mesh.n_cells(); ++cell)
       for (const auto &piece : cell_shape(mesh.kind(cell)).pieces)
       {
@@ -144,11 +143,9 @@ private:
     // of a solid: the polygon of a hole that takes half of a plate leaves 0.026 to it
     constexpr double lost_volume = 0.03;
     for (std::size_t i = 0; i < volumes.size(); ++i)
-      if (std::abs(volumes[i] - model_.solids[i].volume) > lost_volume * model_.solids[i].volume)
-        throw std::invalid_argument(
-            options_.place + ": plates = \"swept\" makes " + text(volumes[i]) + " m^3 of solid \"" +
-            model_.solids[i].name + "\", which has " + text(model_.solids[i].volume) +
-            " m^3: sweeping fills a hole or misses walls; remove plates, or draw it as one solid");
+      if (const Solid &solid = group_.solids[i]; std::abs(volumes[i] - solid.volume) > lost_volume * solid.volume)
+        throw NotSwept("sweeping makes " + text(volumes[i]) + " m^3 of its " + text(solid.volume) + " m^3",
+                       static_cast<int>(i));
   }
 
   /// Before they are made.
@@ -260,45 +257,60 @@ private:
     return points;
   }
 
-  /// Sections of the holes of a region: coincident holes through several solids count as one.
-  std::vector<std::vector<Point2>> sections(const SweptRegion &region) const
+  /// Sections of the holes of a region, and outlines of footprints: coincident holes through several solids count as
+  /// one.
+  std::vector<InnerLine> sections(const SweptRegion &region) const
   {
-    const int                        d = region.direction;
-    std::vector<std::vector<Point2>> found;
-    std::vector<double>              length;
-    std::vector<Point2>              middle;
+    const int              d     = region.direction;
+    const double           whole = lattice_.planes[d][region.to[d]] - lattice_.planes[d][region.from[d]];
+    std::vector<InnerLine> found;
+    std::vector<double>    length;
+    std::vector<Point2>    middle;
     for (const int h : region.holes)
     {
       const PlateHole &hole = solids_.holes[h];
       const Point2     at   = {0.5 * (hole.min[0] + hole.max[0]), 0.5 * (hole.min[1] + hole.max[1])};
       const double     size = hole.max[0] - hole.min[0];
-      std::size_t      same = 0;
-      while (same < found.size() && std::hypot(at[0] - middle[same][0], at[1] - middle[same][1]) > 0.01 * size)
+      std::size_t      same = hole.filled ? found.size() : 0; // footprints touch no other line
+      while (same < found.size() &&
+             (found[same].filled || std::hypot(at[0] - middle[same][0], at[1] - middle[same][1]) > 0.01 * size))
         ++same;
       if (same == found.size())
       {
-        found.emplace_back();
+        found.push_back({{}, hole.filled});
         for (const Side &side : hole.sides)
-          found.back().push_back(side[0]);
-        length.push_back(0.);
+          found.back().points.push_back(side[0]);
+        length.push_back(hole.filled ? whole : 0.);
         middle.push_back(at);
       }
-      else if (found[same].size() != hole.sides.size() ||
-               std::abs(found[same].front()[0] - hole.sides.front()[0][0]) > 1e-6 * size)
-        throw NotSwept("a hole goes through several solids with different sections");
-      length[same] += hole.to - hole.from;
+      else if (found[same].points.size() != hole.sides.size() ||
+               std::abs(found[same].points.front()[0] - hole.sides.front()[0][0]) > 1e-6 * size)
+        throw NotSwept("a hole goes through several solids with different sections", hole.solid);
+      length[same] += hole.filled ? 0. : hole.to - hole.from;
     }
-    const double whole = lattice_.planes[d][region.to[d]] - lattice_.planes[d][region.from[d]];
     for (const double l : length)
       if (std::abs(l - whole) > 1e-6 * whole)
-        throw NotSwept("neighbouring holes go through different thicknesses");
+        throw NotSwept("neighbouring holes go through different thicknesses",
+                       solids_.holes[region.holes.front()].solid);
     return found;
+  }
+
+  SectionMesh section_of(const SweptRegion &region) const
+  {
+    try
+    {
+      return section_mesh(outline(region), sections(region));
+    }
+    catch (const NotSwept &reason)
+    {
+      throw NotSwept(reason.what(), solids_.holes[region.holes.front()].solid);
+    }
   }
 
   void add_region(const SweptRegion &region)
   {
     const int         d       = region.direction;
-    const SectionMesh section = section_mesh(outline(region), sections(region));
+    const SectionMesh section = section_of(region);
     Index3            brick   = region.from;
     int               last    = -1;
     for (; brick[d] < region.to[d]; ++brick[d])
@@ -365,7 +377,7 @@ private:
     for (const PlateHole &hole : solids_.holes)
     {
       const int d = hole.direction, a = (d + 1) % 3, b = (d + 2) % 3;
-      if (centre[d] < hole.from || centre[d] > hole.to)
+      if (hole.filled || centre[d] < hole.from || centre[d] > hole.to)
         continue;
       for (std::size_t i = 0; i < hole.sides.size(); ++i)
       {
@@ -378,7 +390,7 @@ private:
     return 0;
   }
 
-  const CadModel                                 &model_;
+  const PlateGroup                               &group_;
   const FrameSpecification                       &specification_;
   const MeshOptions                              &options_;
   PlateSolids                                     solids_;
@@ -393,10 +405,21 @@ private:
 
 } // namespace
 
-ExtractedMesh swept_mesh(const CadModel &model, const Selection &selection, const FrameSpecification &specification,
-                         const MeshOptions &options)
+SweptMesh swept_mesh(const CadModel &model, const PlateGroup &group, const std::vector<Face> &all,
+                     const Selection &selection, const FrameSpecification &specification, const MeshOptions &options)
 {
-  return Sweeping(model, selection, specification, options).mesh();
+  const PlateSolids plain = plate_solids(group.solids, all, model.unit);
+  PlateSolids       with  = plain;
+  add_footprints(with, group.contacts, model.unit, model.diagonal());
+  if (with.holes.size() > plain.holes.size())
+    try
+    {
+      return Sweeping(model, group, with, selection, specification, options).mesh();
+    }
+    catch (const NotSwept &) // joined to cells without sides along the footprints then
+    {
+    }
+  return Sweeping(model, group, plain, selection, specification, options).mesh();
 }
 
 } // namespace gestell::fem

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace gestell::fem
 {
@@ -115,36 +116,75 @@ Box widened(const Box &box, double margin, const BrickLattice &lattice)
   return wide;
 }
 
-std::vector<Box> boxes_of(const PlateSolids &solids, const BrickLattice &lattice)
+/// The box with the widest margin that the plate fills; none if it fills none.
+std::optional<Box> fitting(const Box &box, const BrickLattice &lattice)
 {
-  std::vector<Box> narrow;
-  for (std::size_t h = 0; h < solids.holes.size(); ++h)
+  for (const double margin : margins)
+    if (Box wide = widened(box, margin, lattice); is_plate(lattice, wide))
+      return wide;
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse(const PlateSolids &solids, const Box &box)
+{
+  const int     d  = box.direction;
+  const Vector3 at = 0.5 * (box.from + box.to) * solids.axes[d] +
+                     0.5 * (box.min[0] + box.max[0]) * solids.axes[(d + 1) % 3] +
+                     0.5 * (box.min[1] + box.max[1]) * solids.axes[(d + 2) % 3];
+  throw NotSwept("the hole at " + text(at) +
+                     " m has no plain plate around it (an edge, a step or another wall is next to it)",
+                 solids.holes[box.holes.front()].solid);
+}
+
+/// @param holes  into solids.holes
+std::vector<Box> boxes_around(const PlateSolids &solids, const std::vector<int> &holes)
+{
+  std::vector<Box> boxes;
+  for (const int h : holes)
   {
     const PlateHole &hole = solids.holes[h];
-    narrow.push_back({hole.direction, hole.from, hole.to, hole.min, hole.max, {static_cast<int>(h)}});
+    boxes.push_back({hole.direction, hole.from, hole.to, hole.min, hole.max, {h}});
   }
-  std::vector<Box> wide;
-  for (const Box &box : united(narrow))
+  return united(boxes);
+}
+
+std::vector<Box> boxes_of(const PlateSolids &solids, const BrickLattice &lattice)
+{
+  std::vector<int> holes;
+  for (std::size_t h = 0; h < solids.holes.size(); ++h)
+    holes.push_back(static_cast<int>(h));
+  const auto drop_footprints = [&](const Box &box)
   {
-    const auto fits = std::find_if(margins.begin(), margins.end(),
-                                   [&](double margin) { return is_plate(lattice, widened(box, margin, lattice)); });
-    if (fits == margins.end())
-    {
-      Vector3   at{};
-      const int d = box.direction;
-      at = 0.5 * (box.from + box.to) * solids.axes[d] + 0.5 * (box.min[0] + box.max[0]) * solids.axes[(d + 1) % 3] +
-           0.5 * (box.min[1] + box.max[1]) * solids.axes[(d + 2) % 3];
-      throw NotSwept("the hole at " + text(at) +
-                     " m has no plain plate around it (an edge, a step or another wall is next to it)");
-    }
-    wide.push_back(widened(box, *fits, lattice));
+    const std::size_t before = holes.size();
+    for (const int h : box.holes)
+      if (solids.holes[h].filled)
+        holes.erase(std::remove(holes.begin(), holes.end(), h), holes.end());
+    return holes.size() < before;
+  };
+  while (true)
+  {
+    bool             again = false;
+    std::vector<Box> wide;
+    for (const Box &box : boxes_around(solids, holes))
+      if (const std::optional<Box> fits = fitting(box, lattice))
+        wide.push_back(*fits);
+      else if (drop_footprints(box))
+        again = true;
+      else
+        refuse(solids, box);
+    wide = united(wide);
+    for (const Box &box : wide)
+      if (!again && !is_plate(lattice, box))
+      {
+        if (!drop_footprints(box))
+          throw NotSwept("holes close to each other, one at height " + text(box.from) +
+                             " m, have no plain plate around them",
+                         solids.holes[box.holes.front()].solid);
+        again = true;
+      }
+    if (!again)
+      return wide;
   }
-  wide = united(wide);
-  for (const Box &box : wide)
-    if (!is_plate(lattice, box))
-      throw NotSwept("holes close to each other, one at height " + text(box.from) +
-                     " m, have no plain plate around them");
-  return wide;
 }
 
 } // namespace

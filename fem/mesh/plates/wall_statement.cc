@@ -33,7 +33,25 @@ void count(const std::array<double, 3> &widths, const std::array<int, 3> &sheet,
   walls.volume += volume;
 }
 
-Walls walls_of(const BrickLattice &lattice, const Sheets &sheets)
+std::string number(int n, const std::string &what)
+{
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+} // namespace
+
+void WallCount::add(const WallCount &other)
+{
+  walls += other.walls;
+  bricks += other.bricks;
+  regions += other.regions;
+  thinnest = std::min(thinnest, other.thinnest);
+  thickest = std::max(thickest, other.thickest);
+  volume += other.volume;
+  all += other.all;
+}
+
+WallCount count_walls(const BrickLattice &lattice, const Sheets &sheets)
 {
   Walls walls;
   for (std::size_t brick = 0; brick < lattice.size(); ++brick)
@@ -55,29 +73,31 @@ Walls walls_of(const BrickLattice &lattice, const Sheets &sheets)
       walls.bricks.insert(sheet);
     count(widths, sheet, volume, walls);
   }
-  return walls;
+  return {static_cast<int>(walls.sheets.size()),
+          static_cast<int>(walls.bricks.size()),
+          static_cast<int>(lattice.regions.size()),
+          walls.thinnest,
+          walls.thickest,
+          walls.volume,
+          walls.all};
 }
 
-std::string number(std::size_t n, const std::string &what)
+std::string wall_statement(const WallCount &walls, int n_extruded, bool alone)
 {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
-} // namespace
-
-std::string wall_statement(const BrickLattice &lattice, const Sheets &sheets)
-{
-  const Walls       walls = walls_of(lattice, sheets);
+  const std::string along =
+      number(n_extruded, "solid") + " swept along " + (n_extruded == 1 ? "its axis" : "their axes");
+  if (walls.bricks + walls.regions == 0)
+    return "hexahedra: " + along;
   const std::string pieces =
-      number(walls.bricks.size(), "brick") +
-      (lattice.regions.empty() ? "" : " and " + number(lattice.regions.size(), "region") + " around holes");
-  if (walls.sheets.empty())
+      number(walls.bricks, "brick") +
+      (walls.regions == 0 ? "" : " and " + number(walls.regions, "region") + " around holes and footprints") +
+      (n_extruded == 0 ? "" : ", of " + along) + (alone ? ", without tetrahedra" : ", and of tetrahedra");
+  if (walls.walls == 0)
     return "plates are swept: none is three times as wide as thick; the mesh consists of " + pieces;
   const bool alike = walls.thickest - walls.thinnest < 1e-6 * walls.thickest;
-  return "plates are swept: " + number(walls.sheets.size(), "wall") + ", " +
+  return "plates are swept: " + number(walls.walls, "wall") + ", " +
          (alike ? "" : text(1e3 * walls.thinnest) + " to ") + text(1e3 * walls.thickest) + " mm thick, are " +
-         text(std::round(100. * walls.volume / walls.all)) + " % of the volume; the mesh consists of " + pieces +
-         ", without tetrahedra";
+         text(std::round(100. * walls.volume / walls.all)) + " % of their volume; the mesh consists of " + pieces;
 }
 
 } // namespace gestell::fem

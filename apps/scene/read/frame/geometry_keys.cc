@@ -51,11 +51,14 @@ const std::vector<Key> &mesh_keys()
                   "overlapping solids are an error, because the common volume would count twice; `\"once\"` assigns it "
                   "to the first solid in the file")
           .into(&Mesh::overlaps, {fem::Overlaps::refused, fem::Overlaps::once}),
-      key::choice("plates", {"tetrahedra", "swept"}, true,
-                  "`\"swept\"` meshes solids with perpendicular walls in hexahedra through the thickness, narrow along "
-                  "edges of plates and up to `size` wide elsewhere: far fewer DOFs for thin plates at the same "
-                  "accuracy. Straight holes through a plate are included. If there is any other face, all is meshed in "
-                  "tetrahedra, and a note names the face")
+      key::choice(
+          "plates", {"tetrahedra", "swept"}, true,
+          "`\"swept\"` meshes walls in hexahedra through the thickness, narrow along the edges of plates and up to "
+          "`size` wide between them: thin plates need far fewer coordinates for the same accuracy. Tubes, pins and "
+          "other "
+          "solids with a constant section are swept along their axis. Each remaining solid becomes tetrahedra, and a "
+          "note "
+          "gives the reason. Meshes that do not match are tied at their common faces")
           .into(&Mesh::plates, {fem::Plates::tetrahedra, fem::Plates::swept}),
       key::plain("layers", Key::Form::whole, "smallest number of elements through a swept plate")
           .by_default(&Mesh::layers),
