@@ -16,6 +16,14 @@ struct SolidReport
   std::string           material{};             ///< of a STEP file
 };
 
+/// Faces that are selected together.
+struct FaceGroup
+{
+  std::string      name;     ///< "this bore"
+  std::vector<int> faces;    ///< their tags
+  std::string      selector; ///< keys of [frame.surface.NAME]
+};
+
 struct SurfaceReport
 {
   int                   tag;
@@ -29,6 +37,7 @@ struct SurfaceReport
   std::array<double, 3> direction{};  ///< outward normal of a plane, axis of a cylinder
   std::array<double, 3> through{};    ///< [m] a point of the plane, of the axis
   double                radius = 0.;  ///< [m] of a cylinder
+  std::vector<FaceGroup> groups{};    ///< larger surfaces that the face of a cylinder belongs to, the smallest first
 };
 
 /// The skin of a mesh: triangles and their faces.

@@ -25,11 +25,12 @@
 namespace gestell::apps
 {
 
-/// Constant points and cells, and a displacement that changes with time.
+/// Constant points and cells, set once, and a displacement that changes with time.
 struct Surface
 {
   vtkNew<vtkPolyData>   poly;
   vtkNew<vtkFloatArray> displacement;
+  StillArrays           still{};
 
   Surface()
   {
@@ -93,7 +94,7 @@ struct Surface
     poly->SetVerts(cells);
   }
 
-  void write(const std::filesystem::path &path) { write_file(path, surface_document(*poly)); }
+  void write(const std::filesystem::path &path) { write_file(path, surface_document(*poly, still)); }
 };
 
 /// A .pvd file: a collection of data sets with their time and part.

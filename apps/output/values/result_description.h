@@ -64,6 +64,7 @@ void describe(Visitor &v, const PeakState &x)
 {
   v("signal", x.signal, "", "its name");
   v("value", x.value, x.unit, "its extreme");
+  v("unit", x.unit, "", "of `value`");
   v("t", x.t, "s", "instant of the extreme");
   v("half_swing", x.half_swing > 0. ? std::optional(x.half_swing) : std::nullopt, "s",
     "to the turning point beside it; null: there is none");
@@ -176,6 +177,9 @@ void describe(Visitor &v, const Result &x)
   v("energy", keeps_energy ? std::optional(run.energy) : std::nullopt, "", "null: no balance was kept");
   v("warnings", all_warnings(x), "", "texts of all findings");
   v("findings", all_findings(x), "", "warnings, and why a run stopped early");
+  v("units", std::vector<std::pair<std::string, std::string>>(), "",
+    "unit of each member that has the same in all results, by its path as it stands here; the others have a member "
+    "`unit` beside them");
 }
 
 } // namespace gestell::apps

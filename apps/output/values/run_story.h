@@ -57,6 +57,7 @@ void describe(Visitor &v, const LoadDuration &x)
   v("begin", x.begin, "s", "first instant above 1 % of the peak");
   v("end", x.end, "s", "last instant above 1 % of the peak");
   v("peak", x.peak, x.unit, "largest force, with its sign");
+  v("unit", x.unit, "", "of `peak`");
   v("t_peak", x.t_peak, "s", "its instant");
   v("rise", x.rise, "s", "from the begin to 90 % of the peak");
   v("t_fall", x.t_fall, "s", "where the force begins to fall below 90 % of the peak");
