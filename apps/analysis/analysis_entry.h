@@ -28,7 +28,8 @@ std::vector<NamedArray> arrays_of(const Value &)
 
 /**
  * An answer defined by functions next to its value: describe_answer(visitor, value), sections_of(result, value), and
- * optionally subject_of(value), headline_of(value), arrays_of(value), see Answer.  Include this header in .cc files only, as Json.
+ * optionally subject_of(value), headline_of(value), arrays_of(value), see Answer.  Include this header in .cc files
+ * only, as Json.
  */
 template <class Value>
 class DescribedAnswer final : public AnswerWith<Value>

@@ -94,10 +94,4 @@ DisplayUnit display_unit(const std::string &si_unit, double magnitude)
   return {1., si_unit};
 }
 
-std::string quantity_text(double value, const std::string &si_unit, int digits)
-{
-  const DisplayUnit shown = display_unit(si_unit, std::abs(value));
-  return short_text(value * shown.factor, digits) + (shown.unit.empty() ? "" : " " + shown.unit);
-}
-
 } // namespace gestell

@@ -38,7 +38,4 @@ struct DisplayUnit
 /// becomes 600 "µm".  Units without prefixes (rad, Hz, 1/min, ...) are unchanged.
 DisplayUnit display_unit(const std::string &si_unit, double magnitude);
 
-/// "1060 kN" for 1.06e6 "N".
-std::string quantity_text(double value, const std::string &si_unit, int digits = 4);
-
 } // namespace gestell

@@ -1,5 +1,6 @@
 #include "apps/analysis/periodic/periodic_headline.h"
 
+#include "apps/output/text/change_text.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -60,8 +61,7 @@ KeyNumber largest_of(const PeriodicResult &result, std::size_t signal)
   const SignalOrbit   &of   = most.signals[signal];
   return {quantity_text(std::abs(of.max) >= std::abs(of.min) ? of.max : of.min, of.unit),
           of.name + ", largest" +
-              (result.parameter.empty() ? ""
-                                        : ", at " + with_unit_of_parameter(result, short_text(most.parameter)))};
+              (result.parameter.empty() ? "" : ", at " + with_unit_of_parameter(result, short_text(most.parameter)))};
 }
 
 } // namespace
@@ -90,15 +90,13 @@ Headline headline_of(const PeriodicResult &result)
                          with_unit_of_parameter(result, short_text(high->parameter));
     headline.numbers.push_back({stable_stretches(result), "stable"});
   }
-  headline.sentence += ": " + std::to_string(stable) + " stable, " + std::to_string(others) + " unstable" +
-                       (unknown > 0 ? ", of " + std::to_string(unknown) + " the stability is not known" : "") +
-                       (result.special_points.empty()
-                            ? ""
-                            : "; " + count_text(result.special_points.size(), "special point")) +
-                       ".";
-  constexpr std::size_t          most_signals = 3; // each of another unit: a row of numbers
-  const std::vector<SignalOrbit> &signals     = result.entries.front().signals;
-  std::vector<std::string>       units;
+  headline.sentence +=
+      ": " + std::to_string(stable) + " stable, " + std::to_string(others) + " unstable" +
+      (unknown > 0 ? ", of " + std::to_string(unknown) + " the stability is not known" : "") +
+      (result.special_points.empty() ? "" : "; " + count_text(result.special_points.size(), "special point")) + ".";
+  constexpr std::size_t           most_signals = 3; // each of another unit: a row of numbers
+  const std::vector<SignalOrbit> &signals      = result.entries.front().signals;
+  std::vector<std::string>        units;
   for (std::size_t j = 0; j < signals.size() && units.size() < most_signals; ++j)
     if (std::find(units.begin(), units.end(), signals[j].unit) == units.end())
     {

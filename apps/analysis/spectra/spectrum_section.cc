@@ -23,10 +23,10 @@ constexpr double shown_power = 0.99; ///< of each signal: the axis of frequencie
 /// The line up to which a signal has that share of its power, the sum of its squared amplitudes.
 std::size_t last_line(const SignalSpectrum &spectrum)
 {
-  const auto  power = [](double sum, double amplitude) { return sum + amplitude * amplitude; };
-  const auto &all   = spectrum.amplitudes;
-  const double most = shown_power * std::accumulate(all.begin() + 1, all.end(), 0., power);
-  std::size_t  k    = 1;
+  const auto   power = [](double sum, double amplitude) { return sum + amplitude * amplitude; };
+  const auto  &all   = spectrum.amplitudes;
+  const double most  = shown_power * std::accumulate(all.begin() + 1, all.end(), 0., power);
+  std::size_t  k     = 1;
   for (double sum = power(0., all[k]); sum < most && k + 1 < all.size(); sum = power(sum, all[k]))
     ++k;
   return k;

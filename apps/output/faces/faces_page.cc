@@ -115,8 +115,9 @@ Json choices_of(const SurfaceReport &face, const MeshReport &report)
         faces.push_back(i);
         tags += (tags.empty() ? "" : ", ") + std::to_string(tag);
       }
-    choices.push_back(
-        {{"name", "all " + count_text(faces.size(), "face") + " of " + group.name + ": " + tags}, {"faces", faces}, {"selector", group.selector}});
+    choices.push_back({{"name", "all " + count_text(faces.size(), "face") + " of " + group.name + ": " + tags},
+                       {"faces", faces},
+                       {"selector", group.selector}});
   }
   return choices;
 }

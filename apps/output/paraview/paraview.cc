@@ -189,20 +189,20 @@ void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<st
     const double          largest = std::max(result.scenery.has_skin() ? largest_point(u) : 0., largest_of(bodies));
     const double          times   = largest > 0. ? size / largest : size;
     int                   part    = 0;
-    const auto            file    = [&](const char *stem)
+    const auto            file    = [&](const std::string &part_name)
     {
-      names.push_back(numbered(std::string("coupled_modes/") + stem, j + 1));
-      collection.add(static_cast<double>(j + 1), part++, names.back());
+      names.push_back(numbered("coupled_modes/" + part_name + '_', j + 1));
+      collection.add(static_cast<double>(j + 1), part++, names.back(), part_name);
       return folder.claim(names.back());
     };
     frame.note("frequency [Hz]", mode.frequency_hz);
     if (!frame.empty())
-      frame.write(file("frame_"), times * u);
+      frame.write(file("frame"), times * u);
     for (std::size_t i = 0; i < shapes.size(); ++i)
       for (std::size_t p = 0; p < bodies[i].size(); ++p)
         shapes[i].displacement[p] = times * bodies[i][p];
     if (!shapes.empty())
-      write_mechanism(file("mechanism_"), shapes);
+      write_mechanism(file("mechanism"), shapes);
   }
   names.push_back("coupled_modes.pvd");
   folder.write("coupled_modes.pvd", collection.document());
@@ -228,14 +228,13 @@ ViewMacro macro_of(const Result &result, const std::vector<std::size_t> &picture
 }
 
 /// Bytes of files that are written.
-double bytes_of(const OwnFolder &folder, std::vector<std::string>::const_iterator begin,
-                std::vector<std::string>::const_iterator end)
+double bytes_of(const OwnFolder &folder, const std::vector<std::string> &names)
 {
   double bytes = 0.;
-  for (; begin != end; ++begin)
+  for (const std::string &name : names)
   {
     std::error_code none; // a file that could not be written
-    const auto      size = fs::file_size(folder.path() / *begin, none);
+    const auto      size = fs::file_size(folder.path() / name, none);
     bytes += none ? 0. : double(size);
   }
   return bytes;
@@ -247,7 +246,8 @@ double bytes_of(const OwnFolder &folder, std::vector<std::string>::const_iterato
  */
 std::vector<std::size_t> pictures_of_motion(const Result &result, double bytes_of_a_picture, double bytes_of_others)
 {
-  constexpr double most = 100., most_bytes = 20e6, film = 24., least = 3.; // least: the ends and the peak
+  constexpr double most = 100., film = 24., least = 3.; // least: the ends and the peak
+  constexpr double most_bytes = 19.5e6;                 // forces, names and summary.json, which come later, take 0.5 MB
   const double     alone = most_bytes / bytes_of_a_picture, room = (most_bytes - bytes_of_others) / bytes_of_a_picture;
   const bool       all = result.requested.run && result.requested.run->allow_large;
   return chosen_pictures(result, all ? result.run->picture_states.size()
@@ -261,19 +261,19 @@ void write_picture(OwnFolder &folder, const Result &result, std::size_t k, std::
   const coupling::RunResult &run  = *result.run;
   const Eigen::VectorXd     &q    = run.picture_states[k];
   int                        part = 0;
-  const auto                 file = [&](const char *stem)
+  const auto                 file = [&](const std::string &part_name)
   {
-    names.push_back(numbered(std::string("motion/") + stem, number));
-    collection.add(run.picture_times[k], part++, names.back());
+    names.push_back(numbered("motion/" + part_name + '_', number));
+    collection.add(run.picture_times[k], part++, names.back(), part_name);
     return folder.claim(names.back());
   };
   const bool            moves = k < run.picture_velocities.size();
   const Eigen::VectorXd v     = moves ? run.picture_velocities[k] : Eigen::VectorXd();
   if (!frame.empty())
-    frame.write(file("frame_"), frame.displacement(q), moves ? frame.displacement(v) : v);
+    frame.write(file("frame"), frame.displacement(q), moves ? frame.displacement(v) : v);
   const std::vector<Shape> shapes = mechanism_shapes(result.scenery, q);
   if (!shapes.empty())
-    write_mechanism(file("mechanism_"), shapes,
+    write_mechanism(file("mechanism"), shapes,
                     moves ? body_velocities(result.scenery, q, v) : std::vector<Eigen::Vector3d>());
 }
 
@@ -282,13 +282,15 @@ void write_motion(OwnFolder &folder, const Result &result, std::vector<std::stri
   if (!result.run || result.run->picture_states.empty())
     return;
   FrameSurface      frame(result.scenery);
-  Collection        collection;
+  Collection        collection, tried;
+  const double      others = bytes_of(folder, names);
   const std::size_t before = names.size();
-  write_picture(folder, result, 0, 0, frame, collection, names);
-  const auto                     first    = names.begin() + std::ptrdiff_t(before);
-  const std::vector<std::size_t> pictures = pictures_of_motion(
-      result, std::max(1., bytes_of(folder, first, names.end())), bytes_of(folder, names.begin(), first));
-  for (std::size_t number = 1; number < pictures.size(); ++number)
+  // The last picture tells what one takes, in the place of the first, whose displacements may be zero.
+  write_picture(folder, result, result.run->picture_states.size() - 1, 0, frame, tried, names);
+  const std::vector<std::size_t> pictures =
+      pictures_of_motion(result, std::max(1., bytes_of(folder, names) - others), others);
+  names.resize(before);
+  for (std::size_t number = 0; number < pictures.size(); ++number)
     write_picture(folder, result, pictures[number], number, frame, collection, names);
   names.push_back("motion.pvd");
   folder.write("motion.pvd", collection.document());

@@ -6,10 +6,10 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkNew.h>
 #include <vtkStringArray.h>
 #include <vtkZLibDataCompressor.h>
 
@@ -111,8 +111,7 @@ public:
   {
     return "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\" "
            "compressor=\"vtkZLibDataCompressor\">\n" +
-           xml_ +
-           "<AppendedData encoding=\"raw\">\n_" + data_ + "\n</AppendedData>\n</VTKFile>\n";
+           xml_ + "<AppendedData encoding=\"raw\">\n_" + data_ + "\n</AppendedData>\n</VTKFile>\n";
   }
 
 private:
@@ -123,7 +122,7 @@ private:
   }
 
   StillArrays &still_;
-  std::string xml_, data_;
+  std::string  xml_, data_;
 };
 
 } // namespace

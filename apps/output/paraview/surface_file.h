@@ -101,10 +101,11 @@ struct Surface
 class Collection
 {
 public:
-  void add(double time, int part, const std::string &file)
+  /// @param name  of the part, where there are several
+  void add(double time, int part, const std::string &file, const std::string &name = "")
   {
     entries_ += "    <DataSet timestep=\"" + exact_text(time) + "\" part=\"" + std::to_string(part) + "\" file=\"" +
-                file + "\"/>\n";
+                file + (name.empty() ? "" : "\" name=\"" + name) + "\"/>\n";
     ++size_;
   }
   std::size_t size() const { return size_; } ///< data sets so far

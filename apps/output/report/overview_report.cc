@@ -1,6 +1,7 @@
 #include "apps/output/report/overview_report.h"
 
 #include "apps/output/tables/noise.h"
+#include "apps/output/text/change_text.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"

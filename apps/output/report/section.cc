@@ -17,10 +17,7 @@ struct PartHtml
   {
     return (part.soft ? "<p class=\"soft\">" : "<p>") + escape_xml(part.text) + "</p>\n";
   }
-  std::string operator()(const HtmlTable &table) const
-  {
-    return table.is_empty() ? "" : table.html();
-  }
+  std::string operator()(const HtmlTable &table) const { return table.is_empty() ? "" : table.html(); }
   std::string operator()(const Section::Drawing &part) const
   {
     pictures.emplace_back(part.name, chart_svg(part.chart));

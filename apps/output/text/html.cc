@@ -33,9 +33,10 @@ nav a { color: inherit; margin-right: 1.1rem; }
 .warnings { margin: 1.3rem 0; padding: .7rem 1.1rem; background: var(--warn-band); border-left: 4px solid var(--warn-rule);
             color: var(--warn); }
 .warnings ul { margin: .2rem 0; padding-left: 1.2rem; }
+.warnings li.long { list-style: none; margin-left: -1.2rem; }
 summary { cursor: pointer; }
 summary > h2 { display: inline-block; margin: 0; padding: 0; border: 0; }
-section > details { margin-top: .9rem; padding-top: .7rem; border-top: 1px solid var(--rule); }
+section > details:only-child { margin-top: .9rem; padding-top: .7rem; border-top: 1px solid var(--rule); }
 details.line:not([open]) > summary { white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
 table { border-collapse: collapse; margin: .7rem 0 1.1rem; font-variant-numeric: tabular-nums; font-size: .94rem; }
 th, td { padding: .26rem .9rem .26rem 0; text-align: left; border-bottom: 1px solid var(--rule); vertical-align: top; }
@@ -118,7 +119,7 @@ std::string note_html(const std::string &note)
 {
   constexpr std::size_t letters_of_a_line = 110; // in a box of 64 rem
   return n_letters(note) > letters_of_a_line
-             ? "<li><details class=\"line\"><summary>" + escape_xml(note) + "</summary></details></li>"
+             ? "<li class=\"long\"><details class=\"line\"><summary>" + escape_xml(note) + "</summary></details></li>"
              : "<li>" + escape_xml(note) + "</li>";
 }
 
@@ -127,9 +128,10 @@ std::string note_html(const std::string &note)
 std::string section(const std::string &id, const std::string &title, const std::string &content, Shown shown)
 {
   const std::string head = "<h2>" + title + "</h2>";
-  return content.empty() ? ""
-                         : "<section id=\"" + id + "\">" +
-                               (shown == Shown::folded ? folded(head, content) : head + "\n" + content) + "</section>\n";
+  return content.empty()
+             ? ""
+             : "<section id=\"" + id + "\">" +
+                   (shown == Shown::folded ? folded(head, content) : head + "\n" + content) + "</section>\n";
 }
 
 std::string folded(const std::string &title, const std::string &content)
@@ -147,7 +149,7 @@ std::string first_figures(const std::vector<std::string> &figures, std::size_t s
   std::string first, others;
   for (std::size_t i = 0; i < figures.size(); ++i)
     (i < shown ? first : others) += figures[i];
-  return first + folded(count_text(figures.size() - std::min(shown, figures.size()), "chart") + " more", others);
+  return first + folded(count_text(figures.size() - std::min(shown, figures.size()), "more chart"), others);
 }
 
 std::string note_box(const std::vector<std::string> &notes, const std::string &heading)

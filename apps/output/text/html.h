@@ -74,7 +74,7 @@ public:
   void add_note(const std::string &text); ///< a row over all columns
   bool is_empty() const { return rows_.empty(); }
 
-  std::string html() const;                                     ///< in a box that scrolls sideways if necessary, a long one also down
+  std::string html() const; ///< in a box that scrolls sideways if necessary, a long one also down
   std::string scrolled_html() const { return in_box("scroll"); } ///< in a box that scrolls long tables
   std::string terminal() const;                                  ///< the table as text in columns
 

@@ -38,8 +38,7 @@ void refuse_stepped_variables(const StudyFile &study, const SceneTable &table, c
     if (variable.variable.stepped)
       throw table.error("variable " + variable.variable.name + " takes " +
                         (variable.files.empty() ? "words" : "files") +
-                        ", between which there is nothing; leave it out of the study, or leave out " +
-                        asks);
+                        ", between which there is nothing; leave it out of the study, or leave out " + asks);
 }
 
 SurfaceRequest read_surface(const StudyFile &study, const SceneTable &table)

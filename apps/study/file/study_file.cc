@@ -61,8 +61,9 @@ std::vector<double> read_files(const SceneNode &levels, VariableRequest &request
   {
     const SceneNode *file = level.find("file"), *value = level.find("value");
     if (!file || file->type != Type::text || !value || level.entries.size() != 2)
-      level.place.fail(place + "needs a file with its value in each, { file = \"walls_15.step\", value = \"15 mm\" }, "
-                               "got " +
+      level.place.fail(place +
+                       "needs a file with its value in each, { file = \"walls_15.step\", value = \"15 mm\" }, "
+                       "got " +
                        described(level));
     values.push_back(in_unit(*value, request.variable, "levels"));
     for (const auto &[other, name] : request.files)

@@ -47,7 +47,8 @@ const std::vector<Key> &study_variable_keys()
           .by_default("`parameters.NAME`"),
       key::plain("from", Key::Form::quantity, "coded value -1").by_default("`levels`"),
       key::plain("to", Key::Form::quantity, "coded value +1").by_default("`levels`"),
-      key::plain("levels", Key::Form::texts, "values that a factorial takes: numbers, texts with a unit, words, or files with the value that each "
+      key::plain("levels", Key::Form::texts,
+                 "values that a factorial takes: numbers, texts with a unit, words, or files with the value that each "
                  "stands for, `{ file = \"walls_15.step\", value = \"15 mm\" }`")
           .by_default("`from`, `to`"),
       key::plain("choices", Key::Form::map,

@@ -12,12 +12,12 @@ namespace gestell::apps
 /// An entry of the scene that a study varies, as its file tells it.
 struct VariableRequest
 {
-  StudyVariable            variable;
-  std::vector<std::string> keys{};    ///< all that take its value, variable.key the first
-  std::vector<SceneNode>   choices{}; ///< of a variable with choices: what the words stand for
+  StudyVariable                               variable;
+  std::vector<std::string>                    keys{};    ///< all that take its value, variable.key the first
+  std::vector<SceneNode>                      choices{}; ///< of a variable with choices: what the words stand for
   std::vector<std::pair<double, std::string>> files{}; ///< of a variable that is varied by files: the one of each level
-  std::string              place{};
-  std::string              folder{};  ///< where paths among its words or files start
+  std::string                                 place{};
+  std::string                                 folder{}; ///< where paths among its words or files start
 
   /// As a value of the scene is written: 900 kN/mm, linear, true.
   std::string text(double level) const { return variable.text(level); }

@@ -167,7 +167,8 @@ StudyReport make_study_report(const StudyFindings &findings)
 {
   StudyReport       report;
   const std::string body = optimum_section(findings) + choice_section(findings, report.pictures) +
-                           over_variable_section(findings, report.pictures) + effects_section(findings, report.pictures) + front_section(findings, report.pictures) +
+                           over_variable_section(findings, report.pictures) +
+                           effects_section(findings, report.pictures) + front_section(findings, report.pictures) +
                            surfaces_section(findings, report.pictures) + robust_section(findings) +
                            scatter_section(findings, report.pictures) + runs_section(findings);
   make_file_names(report.pictures);

@@ -234,11 +234,11 @@ std::string effects_section(const StudyFindings &findings, Pictures &pictures)
     return "";
   std::vector<std::string> drawn_effects;
   for (std::size_t i = 0; i < n_pictured(findings); ++i)
-    drawn_effects.push_back(
-        findings.surfaces[i].changes()
-            ? drawn("effects_" + findings.surfaces[i].output.name,
-                    effect_picture(findings.surfaces[i], middle_of(findings, findings.surfaces[i])), pictures)
-            : unchanged_note(findings.surfaces[i]));
+    drawn_effects.push_back(findings.surfaces[i].changes()
+                                ? drawn("effects_" + findings.surfaces[i].output.name,
+                                        effect_picture(findings.surfaces[i], middle_of(findings, findings.surfaces[i])),
+                                        pictures)
+                                : unchanged_note(findings.surfaces[i]));
   return section("effects", "Effects",
                  "<p>By the surfaces: each variable goes over its range, the others stay in the middle. The value in "
                  "the middle is that of the surface, beside it that of the run there, if one was made.</p>\n" +

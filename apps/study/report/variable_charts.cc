@@ -64,9 +64,12 @@ Chart chart_over(const StudyTable &table, int variable, int output)
     curve.name   = name;
     curve.marker = Marker::disc;
     if (own.size() == runs.size() && table.variables.size() > 1)
-      curve.line = LineStyle::none; // others vary along it
-    for (const int run : own)
+      curve.line = LineStyle::none;        // others vary along it
+    constexpr std::size_t most_dots = 400; // of a curve: more cover each other
+    const std::size_t     stride    = own.size() / most_dots + 1;
+    for (std::size_t i = 0; i < own.size(); i += stride)
     {
+      const int run = own[i];
       curve.add(x.shown(table.levels(run, variable)), y.shown(table.values(run, output)));
       curve.notes.push_back({"run " + std::to_string(run + 1) + ": " + settings_of(table, run)});
       low  = std::min(low, curve.y.back());
@@ -92,10 +95,10 @@ Headline study_headline(const StudyFindings &findings, const std::string &senten
     const std::vector<int> runs = table.runs_with(int(j));
     if (runs.empty())
       continue;
-    const auto [low, high] = std::minmax_element(runs.begin(), runs.end(), [&](int a, int b)
-                                                 { return table.values(a, at) < table.values(b, at); });
-    const ShownAxis axis   = shown_axis(table.outputs[j], magnitude_of(table.values.col(at)));
-    const bool      same   = table.values(*low, at) == table.values(*high, at);
+    const auto [low, high] = std::minmax_element(
+        runs.begin(), runs.end(), [&](int a, int b) { return table.values(a, at) < table.values(b, at); });
+    const ShownAxis axis = shown_axis(table.outputs[j], magnitude_of(table.values.col(at)));
+    const bool      same = table.values(*low, at) == table.values(*high, at);
     headline.numbers.push_back(
         {same ? axis.text_with_unit(table.values(*low, at))
               : axis.text(table.values(*low, at)) + " to " + axis.text_with_unit(table.values(*high, at)),

@@ -1,7 +1,7 @@
 #include "apps/study/results/findings_text.h"
 
+#include "apps/output/text/change_text.h"
 #include "apps/study/report/choice_section.h"
-
 #include "fem/values/number_text.h"
 
 #include <cmath>

@@ -153,8 +153,9 @@ std::vector<FaceGroup> bores_of(const fem::Face &face, const std::vector<fem::Fa
 {
   if (face.kind != fem::FaceKind::cylinder)
     return {};
-  const Vector3   middle   = 0.5 * (face.min + face.max);
-  SurfaceSelector selector = by_surface(face, face.through + fem::dot(middle - face.through, face.direction) * face.direction);
+  const Vector3   middle = 0.5 * (face.min + face.max);
+  SurfaceSelector selector =
+      by_surface(face, face.through + fem::dot(middle - face.through, face.direction) * face.direction);
   std::vector<FaceGroup> groups;
   const auto             add = [&](const std::string &name, const std::vector<int> &found)
   {

@@ -148,7 +148,8 @@ TEST(SummaryJson, FitsItsSchema)
   EXPECT_EQ(departure(schema, wrong, "summary"), "summary.warnings is no \"array\"");
 }
 
-/// The first number with a decimal fraction that neither `units` nor a member `unit` beside it or above it gives a unit.
+/// The first number with a decimal fraction that neither `units` nor a member `unit` beside it or above it gives a
+/// unit.
 std::string without_unit(const Json &schema, const Json &value, const Json &units, const std::string &at, bool known)
 {
   known = known || units.contains(at) || (value.is_object() && value.contains("unit"));
@@ -157,9 +158,9 @@ std::string without_unit(const Json &schema, const Json &value, const Json &unit
   for (const auto &[name, own] : value.items())
     if (own.is_structured() || own.is_number_float())
     {
-      const bool  member = schema.contains("properties"), item = schema.contains("items");
-      const Json &inner  = member ? schema["properties"][name] : schema[item ? "items" : "additionalProperties"];
-      const std::string path = at + (member ? (at.empty() ? "" : ".") + name : item ? "[]" : ".NAME");
+      const bool        member = schema.contains("properties"), item = schema.contains("items");
+      const Json       &inner = member ? schema["properties"][name] : schema[item ? "items" : "additionalProperties"];
+      const std::string path  = at + (member ? (at.empty() ? "" : ".") + name : item ? "[]" : ".NAME");
       if (const std::string found = without_unit(inner, own, units, path, known); !found.empty())
         return found;
     }
@@ -178,7 +179,7 @@ TEST(SummaryJson, HasTheUnitOfEveryNumber)
   EXPECT_EQ(units["signals.NAME.t_max"], "s");
   EXPECT_EQ(units["energy.residual"], "J");
   EXPECT_EQ(units["frequencies_hz"], "Hz");
-  EXPECT_EQ(units["stress.instants[].peak.von_mises"], "Pa");
+  EXPECT_EQ(units["stress.instants[].largest.von_mises"], "Pa");
   EXPECT_FALSE(units.contains("periodic.solutions[].period")) << "of what this result does not have";
   EXPECT_EQ(json["signals"]["F_P"]["unit"], "N");
 }

@@ -141,11 +141,11 @@ TEST(Spectra, AreDrawnUpTo99PercentOfTheirPower)
   for (const auto &[second, end] : {std::pair(0.1, 10.), {0.101, 60.}})
   {
     RunSpectra found;
-    found.spectra                = Spectra{0., 2., 400, 0.5, 5e-3, 100., {{"F", "N", std::vector<double>(201, 0.)}}};
+    found.spectra = Spectra{0., 2., 400, 0.5, 5e-3, 100., {{"F", "N", std::vector<double>(201, 0.)}}};
     found.spectra->signals[0].amplitudes[10] = 1.;
     found.spectra->signals[0].amplitudes[60] = second;
-    const Section section = spectrum_section(Result(), found);
-    const auto   &drawing = std::get<Section::Drawing>(section.parts.back());
+    const Section section                    = spectrum_section(Result(), found);
+    const auto   &drawing                    = std::get<Section::Drawing>(section.parts.back());
     EXPECT_EQ(drawing.chart.x.end, 0.5 * end);
     EXPECT_NE(drawing.chart.note.find("99 % of the power"), std::string::npos) << drawing.chart.note;
   }

@@ -124,7 +124,8 @@ TEST(StudyFile, TakesADimensionThatIsVariedByFiles)
   says(with(both, "type = 'list'\nrows = [['17 mm']]"), "variable wall: no file has the value 17 mm");
   says(with("{ file = 'a.step' }, { file = 'b.step', value = 2 }"), "needs a file with its value in each");
   says(with("{ file = 'a.step', value = 2 }, 'b.step'"), "needs a file with its value in each");
-  says(with("{ file = 'a.step', value = 2 }, { file = 'b.step', value = 2 }"), "'a.step' and 'b.step' have the same value");
+  says(with("{ file = 'a.step', value = 2 }, { file = 'b.step', value = 2 }"),
+       "'a.step' and 'b.step' have the same value");
   says(with("{ file = 'a.step', value = 'thick' }, { file = 'b.step', value = 2 }"), "needs a number");
 }
 
