@@ -5,6 +5,7 @@
 
 #include <vtkStringArray.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace gestell::apps
@@ -45,8 +46,10 @@ void write_name_files(OwnFolder &folder, const Result &result, const std::vector
   for (const std::size_t k : pictures)
   {
     std::vector<Shape> shapes = mechanism_shapes(result.scenery, result.run->picture_states[k]);
-    shapes.erase(std::remove_if(shapes.begin(), shapes.end(), [](const Shape &shape) { return shape.points.empty(); }),
-                 shapes.end());
+    if (!result.scenery.pins.empty()) // they come last, all in one shape, and are no body
+      shapes.pop_back();
+    const auto is_empty = [](const Shape &shape) { return shape.points.empty(); };
+    shapes.erase(std::remove_if(shapes.begin(), shapes.end(), is_empty), shapes.end());
     if (shapes.empty())
       return;
     names.push_back(numbered("names/names_", collection.size()));

@@ -170,7 +170,7 @@ std::vector<FaceGroup> bores_of(const fem::Face &face, const std::vector<fem::Fa
     if (SurfaceSelector counted = selector; counted.faces = n, found_by(counted, faces, diagonal) == all)
       selector = counted;
   if (selector.faces > 1)
-    add("all bores about this axis with this radius", all);
+    add("the coaxial bores of this radius", all);
   return groups;
 }
 
