@@ -37,6 +37,8 @@ nav a { color: inherit; margin-right: 1.1rem; }
 summary { cursor: pointer; }
 summary > h2 { display: inline-block; margin: 0; padding: 0; border: 0; }
 section > details:only-child { margin-top: .9rem; padding-top: .7rem; border-top: 1px solid var(--rule); }
+section > details:only-child[open] { margin-top: 2.2rem; }
+section > details[open] > summary { margin-bottom: .6rem; }
 details.line:not([open]) > summary { white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
 table { border-collapse: collapse; margin: .7rem 0 1.1rem; font-variant-numeric: tabular-nums; font-size: .94rem; }
 th, td { padding: .26rem .9rem .26rem 0; text-align: left; border-bottom: 1px solid var(--rule); vertical-align: top; }
@@ -92,9 +94,14 @@ footer { margin-top: 3rem; padding-top: .7rem; border-top: 1px solid var(--rule)
 }
 )css";
 
-/// Opens what a link leads to, and all for print.
+/// Folds the last sections of a page of more than eight screens of 1080 pixels; opens what a link leads to, and all for
+/// print.
 const char *const fold_script = R"js(<script>
 (function () {
+  const shorten = () => {
+    const open = [...document.querySelectorAll('section > details:only-child[open]')].reverse();
+    for (const section of open) if (document.documentElement.scrollHeight > 8 * 1080) section.open = false;
+  };
   const reveal = (hash) => {
     const target = hash.length > 1 && document.getElementById(decodeURIComponent(hash.slice(1)));
     if (!target) return;
@@ -105,7 +112,7 @@ const char *const fold_script = R"js(<script>
     const link = event.target.closest('a[href^="#"]');
     if (link) setTimeout(() => reveal(link.hash));
   });
-  addEventListener('load', () => reveal(location.hash));
+  addEventListener('load', () => setTimeout(() => { shorten(); reveal(location.hash); })); // behind what is drawn there
   let closed = [];
   const open = (is) => closed.forEach((e) => { e.open = is; });
   addEventListener('beforeprint', () => { closed = [...document.querySelectorAll('details:not([open])')]; open(true); });
@@ -123,20 +130,25 @@ std::string note_html(const std::string &note)
              : "<li>" + escape_xml(note) + "</li>";
 }
 
+/// A part that a reader can fold and open.
+std::string details(const std::string &title, const std::string &content, Shown shown)
+{
+  return std::string("<details") + (shown == Shown::open ? " open" : "") + "><summary>" + title + "</summary>\n" +
+         content + "</details>\n";
+}
+
 } // namespace
 
 std::string section(const std::string &id, const std::string &title, const std::string &content, Shown shown)
 {
-  const std::string head = "<h2>" + title + "</h2>";
   return content.empty()
              ? ""
-             : "<section id=\"" + id + "\">" +
-                   (shown == Shown::folded ? folded(head, content) : head + "\n" + content) + "</section>\n";
+             : "<section id=\"" + id + "\">" + details("<h2>" + title + "</h2>", content, shown) + "</section>\n";
 }
 
 std::string folded(const std::string &title, const std::string &content)
 {
-  return content.empty() ? "" : "<details><summary>" + title + "</summary>\n" + content + "</details>\n";
+  return content.empty() ? "" : details(title, content, Shown::folded);
 }
 
 std::string figure(const std::string &svg, const std::string &caption)

@@ -49,7 +49,8 @@ Result long_result()
       rows.push_back(std::pow(20., k % 4) * std::sin(50. * result.run->rows[i]));
   }
   result.run->rows = rows;
-  result.answers.push_back(compared_run_answer(compared_run(*result.run, "other", *result.run)));
+  for (int k = 0; k < 6; ++k) // many answers
+    result.answers.push_back(compared_run_answer(compared_run(*result.run, "other", *result.run)));
   return result;
 }
 
