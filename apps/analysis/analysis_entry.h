@@ -16,6 +16,11 @@ std::string subject_of(const Value &)
   return "";
 }
 template <class Value>
+Headline headline_of(const Value &)
+{
+  return {};
+}
+template <class Value>
 std::vector<NamedArray> arrays_of(const Value &)
 {
   return {};
@@ -23,7 +28,8 @@ std::vector<NamedArray> arrays_of(const Value &)
 
 /**
  * An answer defined by functions next to its value: describe_answer(visitor, value), sections_of(result, value), and
- * optionally subject_of(value), arrays_of(value), see Answer.  Include this header in .cc files only, as Json.
+ * optionally subject_of(value), headline_of(value), arrays_of(value), see Answer.  Include this header in .cc files
+ * only, as Json.
  */
 template <class Value>
 class DescribedAnswer final : public AnswerWith<Value>
@@ -35,6 +41,7 @@ public:
   void                    describe(SchemaMembers &v) const override { describe_answer(v, this->value); }
   std::vector<Section>    sections(const Result &result) const override { return sections_of(result, this->value); }
   std::string             subject() const override { return subject_of(this->value); }
+  Headline                headline() const override { return headline_of(this->value); }
   std::vector<NamedArray> arrays() const override { return arrays_of(this->value); }
 };
 

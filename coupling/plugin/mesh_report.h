@@ -16,19 +16,28 @@ struct SolidReport
   std::string           material{};             ///< of a STEP file
 };
 
+/// Faces that are selected together.
+struct FaceGroup
+{
+  std::string      name;     ///< "this bore"
+  std::vector<int> faces;    ///< their tags
+  std::string      selector; ///< keys of [frame.surface.NAME]
+};
+
 struct SurfaceReport
 {
-  int                   tag;
-  std::string           name;     ///< names and groups from the file, then those of the specification
-  std::string           type;     ///< "plane, normal (0 0 1), through (0 0 0.9)"
-  std::string           selector; ///< keys of [frame.surface.NAME] that select it
-  double                area;     ///< [m^2]
-  std::array<double, 3> min, max, centre;
-  std::vector<int>      found_with{}; ///< tags of other faces that no selector distinguishes from it
-  std::string           kind{};       ///< "plane", "cylinder", else the type in gmsh
-  std::array<double, 3> direction{};  ///< outward normal of a plane, axis of a cylinder
-  std::array<double, 3> through{};    ///< [m] a point of the plane, of the axis
-  double                radius = 0.;  ///< [m] of a cylinder
+  int                    tag;
+  std::string            name;     ///< names and groups from the file, then those of the specification
+  std::string            type;     ///< "plane, normal (0 0 1), through (0 0 0.9)"
+  std::string            selector; ///< keys of [frame.surface.NAME] that select it
+  double                 area;     ///< [m^2]
+  std::array<double, 3>  min, max, centre;
+  std::vector<int>       found_with{}; ///< tags of other faces that no selector distinguishes from it
+  std::string            kind{};       ///< "plane", "cylinder", else the type in gmsh
+  std::array<double, 3>  direction{};  ///< outward normal of a plane, axis of a cylinder
+  std::array<double, 3>  through{};    ///< [m] a point of the plane, of the axis
+  double                 radius = 0.;  ///< [m] of a cylinder
+  std::vector<FaceGroup> groups{};     ///< larger surfaces that the face of a cylinder belongs to, the smallest first
 };
 
 /// The skin of a mesh: triangles and their faces.

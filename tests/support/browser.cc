@@ -207,6 +207,12 @@ void Browser::drag(double x0, double y0, double x1, double y1)
   mouse("mouseReleased", x1, y1);
 }
 
+void Browser::resize(int width, int height)
+{
+  call("Emulation.setDeviceMetricsOverride",
+       {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
+}
+
 void Browser::press_key(const std::string &key)
 {
   call("Input.dispatchKeyEvent", {{"type", "keyDown"}, {"key", key}, {"text", key.size() == 1 ? key : ""}});

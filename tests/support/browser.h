@@ -31,6 +31,7 @@ public:
   /// Presses the left button at the first place, in pixels of the window, and lets it go at the second.
   void drag(double x0, double y0, double x1, double y1);
   void press_key(const std::string &key);
+  void resize(int width, int height); ///< of the page, in pixels
 
   /// Processor time of the browser and all processes it has started [s].
   double cpu_seconds() const;

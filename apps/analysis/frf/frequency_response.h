@@ -91,6 +91,9 @@ void describe_answer(Visitor &v, const FrequencyResponse &x)
 /// Sections of the report.
 std::vector<Section> sections_of(const Result &result, const FrequencyResponse &response);
 
+/// The highest peak of each pair.
+Headline headline_of(const FrequencyResponse &response);
+
 /// frf.csv: `frequency [Hz]`, then for each pair `NAME re [unit]`, `NAME im [unit]`, `NAME abs [unit]`, `NAME phase
 /// [deg]`.
 CsvTable frequency_response_csv(const FrequencyResponse &response);

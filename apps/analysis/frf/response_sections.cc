@@ -185,8 +185,9 @@ std::string operating_point_text(const FrequencyResponse &response)
 
 std::vector<Section> sections_of(const Result &, const FrequencyResponse &response)
 {
-  Section section{"frf", "Frequency response", "Frequency response", Section::Place::frequencies};
+  Section section{"frf", "Frequency response", "Frequency response", Section::Place::first};
   section.parts.push_back(Section::Sentences{operating_point_text(response)});
+  section.parts.push_back(peaks_of_pairs(response));
   if (!response.not_condensed.empty())
     section.parts.push_back(
         Section::Sentences{"Every frequency took the whole equations: " + response.not_condensed + ".", true, true});
@@ -198,8 +199,30 @@ std::vector<Section> sections_of(const Result &, const FrequencyResponse &respon
     section.parts.push_back(Section::Drawing{"frf-phase" + ending, phase_chart(response, group)});
   }
   section.parts.push_back(Section::Sentences{"Rings: peaks.", true, true});
-  section.parts.push_back(peaks_of_pairs(response));
   return {section};
+}
+
+Headline headline_of(const FrequencyResponse &response)
+{
+  Headline headline{"The " + response.kind + " from " + short_text(response.frequencies_hz.front()) + " to " +
+                    short_text(response.frequencies_hz.back()) + " Hz: peaks of " +
+                    count_text(response.pairs.size(), "pair") + " of places."};
+  constexpr std::size_t most_pairs = 4; // a row; the table has all
+  for (const ResponsePair &pair : response.pairs)
+  {
+    const auto lower = [](const coupling::ResponsePeak &a, const coupling::ResponsePeak &b)
+    { return a.amplitude < b.amplitude; };
+    const auto highest = std::max_element(pair.peaks.begin(), pair.peaks.end(), lower);
+    if (headline.numbers.size() == most_pairs)
+      break;
+    if (highest == pair.peaks.end())
+      headline.numbers.push_back({"no peak", pair.name()});
+    else
+      headline.numbers.push_back({(std::isfinite(highest->amplitude) ? short_text(highest->amplitude) : "infinite") +
+                                      " " + pair.unit + " at " + short_text(highest->frequency_hz) + " Hz",
+                                  pair.name() + ", highest of " + count_text(pair.peaks.size(), "peak")});
+  }
+  return headline;
 }
 
 CsvTable frequency_response_csv(const FrequencyResponse &response)

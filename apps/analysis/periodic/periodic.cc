@@ -1,6 +1,7 @@
 #include "apps/analysis/analysis_entry.h"
 #include "apps/analysis/periodic/periodic_charts.h"
 #include "apps/analysis/periodic/periodic_description.h"
+#include "apps/analysis/periodic/periodic_headline.h"
 #include "apps/analysis/periodic/periodic_motions.h"
 #include "apps/analysis/periodic/periodic_tables.h"
 #include "apps/output/tables/noise.h"
@@ -157,7 +158,6 @@ std::vector<Section> sections_of(const Result &, const PeriodicResult &periodic)
     section.parts.push_back(Section::Sentences{text, page});
   };
 
-  say(periodic.method + ": " + periodic.reason);
   const PeriodicEntry   first                = periodic.entries.empty() ? PeriodicEntry() : periodic.entries.front();
   constexpr std::size_t most_response_charts = 6; // signals; the file has all
   for (std::size_t j = 0; j < std::min(first.signals.size(), most_response_charts) && !periodic.parameter.empty(); ++j)
@@ -165,6 +165,7 @@ std::vector<Section> sections_of(const Result &, const PeriodicResult &periodic)
     draw("periodic-response-" + std::to_string(j + 1), response_chart(periodic, j));
     draw("periodic-amplitude-" + std::to_string(j + 1), amplitude_chart(periodic, j));
   }
+  say(periodic.method + ": " + periodic.reason);
   section.parts.insert(section.parts.end(), {special_table(periodic), solutions_table(periodic)});
   if (periodic.parameter.empty())
     section.parts.push_back(signals_table(periodic));

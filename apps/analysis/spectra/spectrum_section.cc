@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace gestell::apps
 {
@@ -17,18 +18,27 @@ double most_of(const SignalSpectrum &spectrum)
   return *std::max_element(spectrum.amplitudes.begin(), spectrum.amplitudes.end());
 }
 
-/// [Hz] to where there is something to see of one of them, with some room.
+constexpr double shown_power = 0.99; ///< of each signal: the axis of frequencies ends there
+
+/// The line up to which a signal has that share of its power, the sum of its squared amplitudes.
+std::size_t last_line(const SignalSpectrum &spectrum)
+{
+  const auto   power = [](double sum, double amplitude) { return sum + amplitude * amplitude; };
+  const auto  &all   = spectrum.amplitudes;
+  const double most  = shown_power * std::accumulate(all.begin() + 1, all.end(), 0., power);
+  std::size_t  k     = 1;
+  for (double sum = power(0., all[k]); sum < most && k + 1 < all.size(); sum = power(sum, all[k]))
+    ++k;
+  return k;
+}
+
+/// [Hz] where the axis of frequencies ends.
 double highest_shown(const Spectra &spectra, const std::vector<const SignalSpectrum *> &shown)
 {
-  std::size_t last = 8;
-  // of the largest amplitude of a signal, 60 dB: the axis of frequencies ends there
-  constexpr double shown_share = 1e-3;
+  std::size_t last = std::min<std::size_t>(8, shown.front()->amplitudes.size() - 1); // fewer lines make no curve
   for (const SignalSpectrum *spectrum : shown)
-    for (std::size_t k = last; k < spectrum->amplitudes.size(); ++k)
-      if (spectrum->amplitudes[k] > shown_share * most_of(*spectrum))
-        last = k;
-  const std::size_t lines = shown.front()->amplitudes.size() - 1;
-  return std::min(1.25 * static_cast<double>(last), static_cast<double>(lines)) * spectra.resolution_hz;
+    last = std::max(last, last_line(*spectrum));
+  return static_cast<double>(last) * spectra.resolution_hz;
 }
 
 /// [Hz] of a drive with constant speed; 0: there is none.
@@ -70,7 +80,9 @@ Chart spectrum_chart(const Result &result, const RunSpectra &found, const std::v
   chart.title  = "Spectrum";
   for (const SignalSpectrum *spectrum : shown)
     chart.title += (spectrum == shown.front() ? ": " : ", ") + spectrum->name;
-  chart.x = {"frequency [Hz]", 0., highest_shown(spectra, shown)};
+  chart.x    = {"frequency [Hz]", 0., highest_shown(spectra, shown)};
+  chart.note = percent(shown_power) + " of the power of " + (shown.size() > 1 ? "each signal" : "the signal") +
+               " lies below " + short_text(chart.x.end, 3) + " Hz, where the chart ends";
   // relative to the largest amplitude: 80 dB, the leakage of the window a few bins away from a line
   constexpr double least_shown = 1e-4;
   chart.y       = {"amplitude [" + unit.unit + "]", least_shown * most * unit.factor, 2. * most * unit.factor};

@@ -101,6 +101,27 @@ std::string others_of(const SurfaceReport &face)
          ". Name it in the CAD program, or split it.";
 }
 
+/// What an entry can select: the face, then the larger surfaces that it belongs to; faces by their place in the list.
+Json choices_of(const SurfaceReport &face, const MeshReport &report)
+{
+  Json choices = {{{"name", ""}, {"faces", Json::array()}, {"selector", face.selector}}};
+  for (const coupling::FaceGroup &group : face.groups)
+  {
+    Json        faces = Json::array();
+    std::string tags;
+    for (std::size_t i = 0; i < report.surfaces.size(); ++i)
+      if (const int tag = report.surfaces[i].tag; std::binary_search(group.faces.begin(), group.faces.end(), tag))
+      {
+        faces.push_back(i);
+        tags += (tags.empty() ? "" : ", ") + std::to_string(tag);
+      }
+    choices.push_back({{"name", "all " + count_text(faces.size(), "face") + " of " + group.name + ": " + tags},
+                       {"faces", faces},
+                       {"selector", group.selector}});
+  }
+  return choices;
+}
+
 Json list_of(const MeshReport &report)
 {
   Json list = Json::array();
@@ -113,7 +134,7 @@ Json list_of(const MeshReport &report)
                     {"rgb", {std::lround(colour[0]), std::lround(colour[1]), std::lround(colour[2])}},
                     {"facts", facts_of(face, report.unit)},
                     {"others", others_of(face)},
-                    {"selector", face.selector}});
+                    {"choices", choices_of(face, report)}});
   }
   return list;
 }
@@ -195,7 +216,7 @@ const char *const board =
     "<div class=\"card\"><p id=\"hint\" class=\"soft\">Click a face in a picture or its row in the table: its entry "
     "for "
     "the scene appears here.</p><div id=\"card\" hidden><h2 id=\"head\"></h2><table id=\"facts\"></table>"
-    "<p id=\"others\"></p><p><label>name in the scene <input type=\"text\" id=\"name\"></label> "
+    "<p id=\"others\"></p><p id=\"choices\"></p><p><label>name in the scene <input type=\"text\" id=\"name\"></label> "
     "<button id=\"copy\">copy</button></p><pre id=\"entry\"></pre></div></div></div>\n";
 
 std::string lead_of(const MeshReport &report)

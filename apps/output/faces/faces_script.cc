@@ -14,6 +14,8 @@ button, input[type=text], input[type=search] { font: inherit; color: inherit; ba
          border: 1px solid var(--rule); border-radius: 4px; padding: .15rem .55rem; }
 button { cursor: pointer; }
 #board .card { flex: 1 1 24rem; min-width: 18rem; }
+#choices { display: flex; flex-wrap: wrap; gap: .4rem; }
+#choices button[aria-pressed=true] { background: #ffe27a; color: #22272e; }
 #board .card h2 { margin: 0 0 .3rem; border: 0; padding: 0; }
 #board .card pre { white-space: pre-wrap; overflow-wrap: anywhere; user-select: all; }
 #board .card td, #board .card th { padding: .15rem .8rem .15rem 0; }
@@ -45,7 +47,8 @@ const sides = { 'from front, right and above': [36, 21], 'from behind, left and 
   'right, seen against x': [90, 0], 'rear, seen against y': [180, 0], 'left, seen along x': [270, 0], 'top, seen against z': [0, 90],
   'bottom, seen along z': [180, -90] };
 const views = { front: [0, 0], right: [90, 0], rear: [180, 0], left: [270, 0], top: [0, 90], bottom: [0, -90], 'from above': [36, 21] };
-let chosen = -1, under = -1;
+let chosen = -1, under = -1, choice = 0; // choice: of the surfaces that the chosen face belongs to
+const isChosen = f => f === chosen || (chosen >= 0 && frame.list[chosen].choices[choice].faces.includes(f));
 
 // The frame on a canvas: a raster of depths with the face at each pixel: exact picking, edges and numbers where faces are seen.
 const screen = new Float32Array(3 * n), light = new Float32Array(count);
@@ -120,14 +123,14 @@ class Sight {
     }
   }
   paint() {
-    const { wide, high, seen, pixel } = this;
+    const { wide, high, seen, pixel } = this, marks = frame.list.map((_, f) => isChosen(f));
     for (let at = 0; at < wide * high; ++at) {
       const t = seen[at];
       if (t < 0) { pixel[at] = 0; continue; }
-      const f = faceOf[t], c = f === chosen ? [255, 214, 0] : frame.list[f].rgb;
-      let l = light[t] * (f === under && f !== chosen ? 1.25 : 1);
+      const f = faceOf[t], marked = marks[f], c = marked ? [255, 214, 0] : frame.list[f].rgb;
+      let l = light[t] * (f === under && !marked ? 1.25 : 1);
       const beside = at + 1 < wide * high ? seen[at + 1] : -1, below = at + wide < wide * high ? seen[at + wide] : -1;
-      if (beside < 0 || below < 0 || faceOf[beside] !== f || faceOf[below] !== f) l = f === chosen ? .1 : .3;
+      if (beside < 0 || below < 0 || faceOf[beside] !== f || faceOf[below] !== f) l = marked ? .1 : .3;
       pixel[at] = 0xff000000 | Math.min(255, l * c[2]) << 16 | Math.min(255, l * c[1]) << 8 | Math.min(255, l * c[0]);
     }
     this.paper.putImageData(this.image, 0, 0);
@@ -200,9 +203,10 @@ const sights = Object.keys(sides).map(caption => {
 const rows = Array.from(document.querySelectorAll('#faces tr')).slice(1);
 rows.forEach((row, f) => { row.dataset.f = f; });
 function mark() {
-  rows.forEach((row, f) => { row.classList.toggle('chosen', f === chosen); row.classList.toggle('under', f === under); });
+  rows.forEach((row, f) => { row.classList.toggle('chosen', isChosen(f)); row.classList.toggle('under', f === under); });
   board.redraw();
 }
+function show() { mark(); sights.forEach(sight => sight.redraw()); }
 /** Face f lies under the pointer. */
 function point(event, f) {
   tip(event, event.target === canvas ? f : -1);
@@ -211,13 +215,31 @@ function point(event, f) {
 const by = id => document.getElementById(id);
 function entry(f) {
   const name = by('name').value || 'face ' + frame.list[f].tag;
-  return '[frame.surface.' + (/^[A-Za-z0-9_-]+$/.test(name) ? name : JSON.stringify(name)) + ']\n' + frame.list[f].selector;
+  return '[frame.surface.' + (/^[A-Za-z0-9_-]+$/.test(name) ? name : JSON.stringify(name)) + ']\n' + frame.list[f].choices[choice].selector;
+}
+/** Of the surfaces that face f belongs to the entry is for number i. */
+function take(f, i) {
+  choice = i;
+  by('name').value = (i > 0 ? 'bore ' : 'face ') + frame.list[f].tag;
+  by('entry').textContent = entry(f);
+  Array.from(by('choices').children).forEach((button, k) => button.setAttribute('aria-pressed', k === i));
+  show();
+}
+/** A button for each of them. */
+function offer(f) {
+  const { choices } = frame.list[f];
+  by('choices').replaceChildren(...(choices.length < 2 ? [] : choices.map(({ name }, i) => {
+    const button = document.createElement('button');
+    button.textContent = name || 'this face alone';
+    button.addEventListener('click', () => take(f, i));
+    return button;
+  })));
 }
 function choose(f, scrolls) {
   chosen = f;
+  choice = 0;
   if (f >= 0) {
     const face = frame.list[f];
-    by('name').value = 'face ' + face.tag;
     by('head').textContent = 'Face ' + face.tag + (face.name ? ', "' + face.name + '"' : '');
     by('facts').innerHTML = '';
     face.facts.forEach(([word, value]) => {
@@ -225,13 +247,12 @@ function choose(f, scrolls) {
       head.textContent = word; row.appendChild(head); row.insertCell().textContent = value;
     });
     by('others').textContent = face.others;
-    by('entry').textContent = entry(f);
+    offer(f);
+    take(f, 0);
     by('card').hidden = false; by('hint').hidden = true;
     if (scrolls && rows[f]) { const box = rows[f].closest('.scroll'); box.scrollTop = rows[f].offsetTop - box.clientHeight / 2; }
     if (location.hash !== '#face-' + face.tag) history.replaceState(null, '', '#face-' + face.tag);
-  }
-  mark();
-  sights.forEach(sight => sight.redraw());
+  } else show();
 }
 by('name').addEventListener('input', () => { if (chosen >= 0) by('entry').textContent = entry(chosen); });
 by('copy').addEventListener('click', () => {

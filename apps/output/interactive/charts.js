@@ -247,7 +247,13 @@
     }
   }
 
+  // A chart is as wide as its place, which has no width while it is folded.
+  const folded = [...document.querySelectorAll("details:not([open])")], unfold = (is) => folded.forEach((e) => (e.open = is));
+  unfold(true);
   for (const figure of document.querySelectorAll("figure.live")) gestell.charts.push(new LiveChart(figure));
+  unfold(false);
+  document.addEventListener("toggle", (event) => gestell.charts.forEach((chart) =>
+    event.target.open && event.target.contains(chart.figure) && chart.graph.resize()), true);
   const over_time = gestell.charts.filter((chart) => chart.data.link === "time");
   if (over_time.length > 1)
     Dygraph.synchronize(over_time.map((chart) => chart.graph), { selection: false, zoom: true, range: false });

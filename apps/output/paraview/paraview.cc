@@ -1,7 +1,9 @@
 #include "apps/output/paraview/paraview.h"
 
 #include "apps/output/paraview/force_files.h"
+#include "apps/output/paraview/name_files.h"
 #include "apps/output/paraview/surface_file.h"
+#include "apps/output/paraview/view_macro.h"
 #include "apps/output/pictures/chosen_pictures.h"
 #include "apps/output/pictures/machine_state.h"
 #include "apps/output/pictures/mechanism_shapes.h"
@@ -21,117 +23,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Input of the ParaView macro.
-struct ViewMacro
-{
-  double enlargement = 1.; ///< of displacements of the motion
-  double time        = 0.; ///< [s] it begins at: the main peak
-  double size        = 1.; ///< [m] of the machine
-  double speed       = 0.; ///< [m/s] largest at its start, for arrows of a twelfth of the size; 0: none
-  double force       = 0.; ///< [N] largest then, for arrows of a sixth of the size; 0: none
-};
-
-const char *const head =
-    R"py(# Opens this result in ParaView as one would want it: displacements enlarged, colours, arrows of velocities
-# and, thicker, of the forces that elements exert on bodies.
-#   paraview --script=view.py           or in ParaView: View > Python Shell > Run Script
-#   pvbatch view.py picture.png         draws without a window
-import inspect, os, sys
-from paraview.simple import *
-
-)py";
-
-const char *const body = R"py(
-here = os.path.dirname(os.path.abspath(inspect.getsourcefile(lambda: 0) or "."))
-if not os.path.exists(os.path.join(here, "motion.pvd")):
-    here = os.getcwd()
-motion = PVDReader(registrationName="motion", FileName=os.path.join(here, "motion.pvd"))
-scene = GetAnimationScene()
-scene.UpdateAnimationUsingDataTimeSteps()
-scene.AnimationTime = min(motion.TimestepValues, key=lambda t: abs(t - begin))
-view = GetActiveViewOrCreate("RenderView")
-view.ViewTime = scene.AnimationTime
-view.ViewSize = [1000, 800]
-view.OrientationAxesVisibility = 1
-view.OrientationAxesLabelColor = [0., 0., 0.]
-
-warped = WarpByVector(registrationName="deformed", Input=motion)
-warped.Vectors = ["POINTS", "displacement [m]"]
-warped.ScaleFactor = times
-shown = Show(warped, view)
-ColorBy(shown, ("POINTS", "displacement [m]", "Magnitude"))
-shown.RescaleTransferFunctionToDataRange(False, True)
-shown.SetScalarBarVisibility(view, True)
-bar = GetScalarBar(GetColorTransferFunction("displacement [m]"), view)
-bar.TitleColor = bar.LabelColor = [0., 0., 0.]
-bar.TitleFontSize = bar.LabelFontSize = 14
-bar.Title, bar.ComponentTitle = "displacement [m]", ""
-shown.Opacity = 0.6
-
-if speed > 0.:
-    arrows = Glyph(registrationName="velocities", Input=warped, GlyphType="Arrow")
-    arrows.OrientationArray = ["POINTS", "velocity [m/s]"]
-    arrows.ScaleArray = ["POINTS", "velocity [m/s]"]
-    arrows.ScaleFactor = size / 12. / speed
-    arrows.GlyphMode = "Uniform Spatial Distribution (Bounds Based)"
-    arrows.MaximumNumberOfSamplePoints = 300
-    drawn = Show(arrows, view)
-    ColorBy(drawn, None)
-    drawn.AmbientColor = drawn.DiffuseColor = [0.8, 0.2, 0.1]
-
-if force > 0.:
-    acting = PVDReader(registrationName="forces", FileName=os.path.join(here, "forces.pvd"))
-    places = WarpByVector(registrationName="places of forces", Input=acting)
-    places.Vectors = ["POINTS", "displacement [m]"]
-    places.ScaleFactor = times
-    pushes = Glyph(registrationName="forces on bodies", Input=places, GlyphType="Arrow")
-    pushes.OrientationArray = ["POINTS", "force [N]"]
-    pushes.ScaleArray = ["POINTS", "force [N]"]
-    pushes.ScaleFactor = size / 6. / force
-    pushes.GlyphMode = "All Points"
-    shafts = Show(pushes, view)
-    shafts.ColorArrayName = [None, ""]
-    shafts.AmbientColor = shafts.DiffuseColor = [0.1, 0.5, 0.2]
-
-words = AnnotateTimeFilter(registrationName="time", Input=motion)
-words.Format = "t = {time:f} s, displacements " + "%g" % times + " times"
-written = Show(words, view)
-written.Color = [0., 0., 0.]
-written.FontSize = 16
-
-view.CameraParallelProjection = 1
-view.CameraFocalPoint = [0., 0., 0.]
-view.CameraPosition = [0.55, -0.75, 0.36]
-view.CameraViewUp = [0., 0., 1.]
-view.Background = [1., 1., 1.]
-try:
-    view.UseColorPaletteForBackground = 0
-except AttributeError:
-    pass
-ResetCamera(view)
-Render(view)
-if len(sys.argv) > 1 and sys.argv[-1].endswith(".png"):
-    SaveScreenshot(sys.argv[-1], view, ImageResolution=[1000, 800])
-)py";
-
-/// view.py: opens motion.pvd in the same folder in ParaView (5.9 and later), warped, coloured, with arrows of
-/// velocities and forces; with pvbatch and the name of a picture it writes this picture.
-std::string view_macro(const ViewMacro &view)
-{
-  return head + ("times = " + exact_text(view.enlargement) + "  # enlargement of displacements\nbegin = ") +
-         exact_text(view.time) + "  # [s], the main peak\nsize = " + exact_text(view.size) +
-         "  # [m], of the machine\nspeed = " + exact_text(view.speed) +
-         "  # [m/s], the largest at that time\nforce = " + exact_text(view.force) +
-         "  # [N], the largest at that time\n" + body;
-}
-
 namespace fs = std::filesystem;
-
-/// Size of a file: place, displacement and velocity of each point, corners, offset and body of each triangle.
-double file_bytes(long points, long triangles)
-{
-  return 36. * double(points) + 20. * double(triangles);
-}
 
 /// The frame: its skin, or where it has none its interfaces as points.
 class FrameSurface
@@ -176,7 +68,6 @@ public:
   }
 
   double size() const { return surface_.poly->GetLength(); }
-  double bytes() const { return file_bytes(surface_.poly->GetNumberOfPoints(), surface_.poly->GetNumberOfCells()); }
   void   note(const char *name, double value) { surface_.note(name, value); }
 
 private:
@@ -298,20 +189,20 @@ void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<st
     const double          largest = std::max(result.scenery.has_skin() ? largest_point(u) : 0., largest_of(bodies));
     const double          times   = largest > 0. ? size / largest : size;
     int                   part    = 0;
-    const auto            file    = [&](const char *stem)
+    const auto            file    = [&](const std::string &part_name)
     {
-      names.push_back(numbered(std::string("coupled_modes/") + stem, j + 1));
-      collection.add(static_cast<double>(j + 1), part++, names.back());
+      names.push_back(numbered("coupled_modes/" + part_name + '_', j + 1));
+      collection.add(static_cast<double>(j + 1), part++, names.back(), part_name);
       return folder.claim(names.back());
     };
     frame.note("frequency [Hz]", mode.frequency_hz);
     if (!frame.empty())
-      frame.write(file("frame_"), times * u);
+      frame.write(file("frame"), times * u);
     for (std::size_t i = 0; i < shapes.size(); ++i)
       for (std::size_t p = 0; p < bodies[i].size(); ++p)
         shapes[i].displacement[p] = times * bodies[i][p];
     if (!shapes.empty())
-      write_mechanism(file("mechanism_"), shapes);
+      write_mechanism(file("mechanism"), shapes);
   }
   names.push_back("coupled_modes.pvd");
   folder.write("coupled_modes.pvd", collection.document());
@@ -336,51 +227,75 @@ ViewMacro macro_of(const Result &result, const std::vector<std::size_t> &picture
   return view;
 }
 
-/// At most a hundred pictures and 20 MB, unless large results are allowed.
-std::vector<std::size_t> pictures_of_motion(const Result &result, const FrameSurface &frame)
+/// Bytes of files that are written.
+double bytes_of(const OwnFolder &folder, const std::vector<std::string> &names)
 {
-  constexpr double most = 100., most_bytes = 20e6, least = 3.; // the ends and the peak
-  double           bytes = frame.bytes();
-  for (const Shape &body : mechanism_shapes(result.scenery, result.run->picture_states.front()))
-    bytes += file_bytes(long(body.points.size()), long(body.triangles.size()));
-  const bool all = result.requested.run && result.requested.run->allow_large;
+  double bytes = 0.;
+  for (const std::string &name : names)
+  {
+    std::error_code none; // a file that could not be written
+    const auto      size = fs::file_size(folder.path() / name, none);
+    bytes += none ? 0. : double(size);
+  }
+  return bytes;
+}
+
+/**
+ * At most a hundred pictures, as many as keep all files within 20 MB; where these leave no room, a film of one swing or
+ * two.  All pictures if large results are allowed.
+ */
+std::vector<std::size_t> pictures_of_motion(const Result &result, double bytes_of_a_picture, double bytes_of_others)
+{
+  constexpr double most = 100., film = 24., least = 3.; // least: the ends and the peak
+  constexpr double most_bytes = 19.5e6;                 // forces, names and summary.json, which come later, take 0.5 MB
+  const double     alone = most_bytes / bytes_of_a_picture, room = (most_bytes - bytes_of_others) / bytes_of_a_picture;
+  const bool       all = result.requested.run && result.requested.run->allow_large;
   return chosen_pictures(result, all ? result.run->picture_states.size()
-                                     : std::size_t(std::clamp(most_bytes / std::max(bytes, 1.), least, most)));
+                                     : std::size_t(std::clamp(std::max(room, std::min(alone, film)), least, most)));
+}
+
+/// Files of the motion at saved state k.
+void write_picture(OwnFolder &folder, const Result &result, std::size_t k, std::size_t number, FrameSurface &frame,
+                   Collection &collection, std::vector<std::string> &names)
+{
+  const coupling::RunResult &run  = *result.run;
+  const Eigen::VectorXd     &q    = run.picture_states[k];
+  int                        part = 0;
+  const auto                 file = [&](const std::string &part_name)
+  {
+    names.push_back(numbered("motion/" + part_name + '_', number));
+    collection.add(run.picture_times[k], part++, names.back(), part_name);
+    return folder.claim(names.back());
+  };
+  const bool            moves = k < run.picture_velocities.size();
+  const Eigen::VectorXd v     = moves ? run.picture_velocities[k] : Eigen::VectorXd();
+  if (!frame.empty())
+    frame.write(file("frame"), frame.displacement(q), moves ? frame.displacement(v) : v);
+  const std::vector<Shape> shapes = mechanism_shapes(result.scenery, q);
+  if (!shapes.empty())
+    write_mechanism(file("mechanism"), shapes,
+                    moves ? body_velocities(result.scenery, q, v) : std::vector<Eigen::Vector3d>());
 }
 
 void write_motion(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
   if (!result.run || result.run->picture_states.empty())
     return;
-  const coupling::RunResult &run = *result.run;
-  FrameSurface               frame(result.scenery);
-
-  Collection                     collection;
-  const std::vector<std::size_t> pictures = pictures_of_motion(result, frame);
-  std::size_t                    number   = 0;
-  for (const std::size_t k : pictures)
-  {
-    const Eigen::VectorXd &q    = run.picture_states[k];
-    int                    part = 0;
-    const auto             file = [&](const char *stem)
-    {
-      names.push_back(numbered(std::string("motion/") + stem, number));
-      collection.add(run.picture_times[k], part++, names.back());
-      return folder.claim(names.back());
-    };
-    const bool            moves = k < run.picture_velocities.size();
-    const Eigen::VectorXd v     = moves ? run.picture_velocities[k] : Eigen::VectorXd();
-    if (!frame.empty())
-      frame.write(file("frame_"), frame.displacement(q), moves ? frame.displacement(v) : v);
-    const std::vector<Shape> shapes = mechanism_shapes(result.scenery, q);
-    if (!shapes.empty())
-      write_mechanism(file("mechanism_"), shapes,
-                      moves ? body_velocities(result.scenery, q, v) : std::vector<Eigen::Vector3d>());
-    ++number;
-  }
+  FrameSurface      frame(result.scenery);
+  Collection        collection, tried;
+  const double      others = bytes_of(folder, names);
+  const std::size_t before = names.size();
+  // The last picture tells what one takes, in the place of the first, whose displacements may be zero.
+  write_picture(folder, result, result.run->picture_states.size() - 1, 0, frame, tried, names);
+  const std::vector<std::size_t> pictures =
+      pictures_of_motion(result, std::max(1., bytes_of(folder, names) - others), others);
+  names.resize(before);
+  for (std::size_t number = 0; number < pictures.size(); ++number)
+    write_picture(folder, result, pictures[number], number, frame, collection, names);
   names.push_back("motion.pvd");
   folder.write("motion.pvd", collection.document());
   write_force_files(folder, result, pictures, names);
+  write_name_files(folder, result, pictures, names);
   names.push_back("view.py");
   folder.write("view.py", view_macro(macro_of(result, pictures)));
 }

@@ -25,11 +25,12 @@
 namespace gestell::apps
 {
 
-/// Constant points and cells, and a displacement that changes with time.
+/// Constant points and cells, set once, and a displacement that changes with time.
 struct Surface
 {
   vtkNew<vtkPolyData>   poly;
   vtkNew<vtkFloatArray> displacement;
+  StillArrays           still{};
 
   Surface()
   {
@@ -93,17 +94,18 @@ struct Surface
     poly->SetVerts(cells);
   }
 
-  void write(const std::filesystem::path &path) { write_file(path, surface_document(*poly)); }
+  void write(const std::filesystem::path &path) { write_file(path, surface_document(*poly, still)); }
 };
 
 /// A .pvd file: a collection of data sets with their time and part.
 class Collection
 {
 public:
-  void add(double time, int part, const std::string &file)
+  /// @param name  of the part, where there are several
+  void add(double time, int part, const std::string &file, const std::string &name = "")
   {
     entries_ += "    <DataSet timestep=\"" + exact_text(time) + "\" part=\"" + std::to_string(part) + "\" file=\"" +
-                file + "\"/>\n";
+                file + (name.empty() ? "" : "\" name=\"" + name) + "\"/>\n";
     ++size_;
   }
   std::size_t size() const { return size_; } ///< data sets so far

@@ -1,6 +1,7 @@
 #include "apps/output/report/overview_report.h"
 
 #include "apps/output/tables/noise.h"
+#include "apps/output/text/change_text.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
@@ -15,11 +16,6 @@ namespace gestell::apps
 namespace
 {
 
-struct KeyNumber
-{
-  std::string value, meaning;
-};
-
 /// A signal's extreme of the larger size.
 struct Peak
 {
@@ -31,12 +27,6 @@ Peak peak_of(const coupling::SignalSummary &signal)
 {
   return std::abs(signal.max) >= std::abs(signal.min) ? Peak{&signal, signal.max, signal.t_max}
                                                       : Peak{&signal, signal.min, signal.t_min};
-}
-
-std::string quantity_text(double value, const std::string &si_unit)
-{
-  const DisplayUnit unit = display_unit(si_unit, std::abs(value));
-  return short_text(value * unit.factor, 4) + (unit.unit.empty() ? "" : " " + unit.unit);
 }
 
 /// Peaks of the first force, the first moment, ... in the order of the scene.
@@ -156,14 +146,17 @@ std::vector<KeyNumber> key_numbers(const Result &result)
 
 std::string overview(const Result &result)
 {
-  const std::string text = result.run && computed_subject(result).empty()
-                               ? what_was_run(result, *result.run) + " " + what_it_gave(*result.run)
-                               : other_sentences(result);
-  std::string       html = text.empty() ? "" : "<p id=\"computed\">" + escape_xml(text) + "</p>\n";
-  std::string       keys;
-  for (const auto &[value, meaning] : key_numbers(result))
-    keys += "<div><strong>" + escape_xml(value) + "</strong><span>" + escape_xml(meaning) + "</span></div>";
-  return html + (keys.empty() ? "" : "<div class=\"keys\">" + keys + "</div>\n");
+  Headline headline{result.run && computed_subject(result).empty()
+                        ? what_was_run(result, *result.run) + " " + what_it_gave(*result.run)
+                        : other_sentences(result),
+                    key_numbers(result)};
+  for (const auto &answer : result.answers)
+    if (const Headline own = answer->headline(); !own.sentence.empty())
+    {
+      headline.sentence = own.sentence;
+      headline.numbers.insert(headline.numbers.begin(), own.numbers.begin(), own.numbers.end());
+    }
+  return headline.html();
 }
 
 } // namespace gestell::apps

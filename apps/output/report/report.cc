@@ -46,7 +46,7 @@ public:
     if (!std::isnan(x))
       add(name, short_text(x) + (unit.empty() ? "" : " " + unit));
   }
-  std::string table() const { return rows_.empty() ? "" : "<table>" + rows_ + "</table>\n"; }
+  std::string table() const { return rows_.empty() ? "" : "<div class=\"wide\"><table>" + rows_ + "</table></div>\n"; }
 
 private:
   std::string rows_;
@@ -95,13 +95,13 @@ std::string signal_figure(const SignalChart &chart)
 }
 
 std::string chart_section(const std::vector<SignalChart> &charts, ChartTopic topic, const std::string &id,
-                          const std::string &title)
+                          const std::string &title, Shown shown = Shown::open)
 {
-  std::string html;
+  std::vector<std::string> figures;
   for (const SignalChart &chart : charts)
     if (chart.topic == topic)
-      html += signal_figure(chart);
-  return section(id, title, html);
+      figures.push_back(signal_figure(chart));
+  return section(id, title, first_figures(figures), shown);
 }
 
 std::string events_section(const Result &result)
@@ -115,7 +115,8 @@ std::string events_section(const Result &result)
   return section("events", "Events",
                  "<p class=\"soft\">The numbers are those above the charts, where events that follow closely are short "
                  "ticks.</p><div class=\"long\">" +
-                     table.scrolled_html() + "</div>\n");
+                     table.scrolled_html() + "</div>\n",
+                 Shown::folded);
 }
 
 /// Meaning and limits of the residual of the energy balance.
@@ -149,7 +150,7 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
   for (const SignalChart &chart : charts)
     if (chart.topic == ChartTopic::energy)
       html += signal_figure(chart);
-  return section("energy", "Energy balance", html);
+  return section("energy", "Energy balance", html, Shown::folded);
 }
 
 /// Marks the frequencies above the limit of a reduced frame.
@@ -228,7 +229,7 @@ std::string modes_section(const Result &result, bool has_view, Pictures &picture
                             shape_svg(result, words + mode_heading(j, modes[j]), modes[j]));
       html += figure(pictures.back().second);
     }
-    return "<div class=\"bars\">" + html + "</div>\n";
+    return html.empty() ? "" : folded("Shapes by coordinates", "<div class=\"bars\">" + html + "</div>\n");
   };
   std::string html;
   if (!result.coupled_modes.empty())
@@ -243,7 +244,8 @@ std::string modes_section(const Result &result, bool has_view, Pictures &picture
             (!result.scenery.has_skin() ? bars(result.frame_modes, "frame", "Frame ")
              : has_view                 ? mode_pictures(result.frame_modes, "frame", most_mode_pictures)
                                         : "");
-  return section("modes", "Natural frequencies and modes", html);
+  const bool asked = !result.run && result.answers.empty();
+  return section("modes", "Natural frequencies and modes", html, asked ? Shown::open : Shown::folded);
 }
 
 /// Numerical damping and period error of each mode, the lowest first; modes above only follow the drives.
@@ -316,7 +318,7 @@ std::string numerics_section(const Result &result)
     html += "<h3>Settings</h3><pre>" + escape_xml(result.settings) + "</pre>\n";
   if (result.run)
     html += accuracy_table(*result.run);
-  return section("numerics", "Model and work", html);
+  return section("numerics", "Model and work", html, Shown::folded);
 }
 
 /// Sections in their order, those without content left out, and the links to them.
@@ -369,7 +371,7 @@ Report make_report(const Result &result)
   body.add(stress_section(result, has_view), "stress", "Stress");
   body.add(chart_section(charts, ChartTopic::force, "forces", "Forces"), "forces", "Forces");
   body.add(chart_section(charts, ChartTopic::motion, "motion", "Motion"), "motion", "Motion");
-  body.add(chart_section(charts, ChartTopic::other, "signals", "Other signals"));
+  body.add(chart_section(charts, ChartTopic::other, "signals", "Other signals", Shown::folded));
   body.add(story_section(result), "story", "Events and modes");
   body.add(Section::Place::history);
   body.add(events_section(result), "events", "Events");

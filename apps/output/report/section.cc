@@ -17,13 +17,7 @@ struct PartHtml
   {
     return (part.soft ? "<p class=\"soft\">" : "<p>") + escape_xml(part.text) + "</p>\n";
   }
-  std::string operator()(const HtmlTable &table) const
-  {
-    const std::string html             = table.is_empty() ? "" : table.html();
-    constexpr int     rows_of_a_screen = 30; // largest table without scrolling: 900 pixels, a screen
-    return std::count(html.begin(), html.end(), '\n') > rows_of_a_screen ? table.scrolled_html()
-                                                                         : html; // a row is a line
-  }
+  std::string operator()(const HtmlTable &table) const { return table.is_empty() ? "" : table.html(); }
   std::string operator()(const Section::Drawing &part) const
   {
     pictures.emplace_back(part.name, chart_svg(part.chart));
@@ -39,6 +33,11 @@ struct PartHtml
     return figure(part.second);
   }
 };
+
+bool is_drawn(const Section::Part &part)
+{
+  return std::holds_alternative<Section::Drawing>(part) || std::holds_alternative<Section::Picture>(part);
+}
 
 /// A picture that leaves room for another one beside it.
 bool is_narrow(const Section::Part &part)
@@ -71,18 +70,29 @@ std::string section_text(const Section &of)
 
 std::string section_html(const Section &of, Pictures &pictures)
 {
+  std::size_t open = open_figures;
   std::string html;
   for (auto part = of.parts.begin(); part != of.parts.end();)
   {
-    const auto end = std::find_if_not(part, of.parts.end(), is_narrow);
-    const bool row = end - part > 1;
-    html += row ? "<div class=\"row\">" : "";
-    do
+    if (!is_drawn(*part))
+    {
       html += std::visit(PartHtml{pictures}, *part++);
-    while (part < end);
-    html += row ? "</div>\n" : "";
+      continue;
+    }
+    std::vector<std::string> figures;
+    for (const auto end = std::find_if_not(part, of.parts.end(), is_drawn); part != end;)
+    {
+      const auto  row_end = std::max(part + 1, std::find_if_not(part, end, is_narrow));
+      const bool  row     = row_end - part > 1;
+      std::string drawn;
+      while (part != row_end)
+        drawn += std::visit(PartHtml{pictures}, *part++);
+      figures.push_back(row ? "<div class=\"row\">" + drawn + "</div>\n" : drawn);
+    }
+    html += first_figures(figures, open);
+    open -= std::min(open, figures.size());
   }
-  return section(of.id, escape_xml(of.title), html);
+  return section(of.id, escape_xml(of.title), html, of.page ? Shown::folded : Shown::open);
 }
 
 std::string answers_text(const Result &result)

@@ -51,7 +51,7 @@ struct Section
 
   std::string       id, title, link; ///< link: its name in the table of contents
   Place             place = Place::results;
-  bool              page  = false; ///< only for the page
+  bool              page  = false; ///< only for the page, where it is folded: nobody asked for it
   std::vector<Part> parts{};
 };
 

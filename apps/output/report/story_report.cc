@@ -49,7 +49,8 @@ std::string story_section(const Result &result)
           titled("Cycles through a play",
                  "Between two events of one kind in which the deflection crosses the whole play: frequency "
                  "in the run, and that of the closed machine with the stiffness of the first harmonic.",
-                 story.plays));
+                 story.plays),
+      Shown::folded);
 }
 
 } // namespace gestell::apps

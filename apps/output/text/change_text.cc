@@ -24,4 +24,10 @@ std::string change_text(double here, double there)
   return short_text(100. * std::abs(more), 3) + (more > 0. ? " % larger" : " % smaller");
 }
 
+std::string quantity_text(double value, const std::string &si_unit, int digits)
+{
+  const DisplayUnit shown = display_unit(si_unit, std::abs(value));
+  return short_text(value * shown.factor, digits) + (shown.unit.empty() ? "" : " " + shown.unit);
+}
+
 } // namespace gestell::apps

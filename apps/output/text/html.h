@@ -6,12 +6,39 @@
 namespace gestell::apps
 {
 
-/// Parts of a page; their texts are HTML already.
-std::string section(const std::string &id, const std::string &title, const std::string &content); ///< "" if empty
-std::string figure(const std::string &svg, const std::string &caption = "");
+enum class Shown
+{
+  open,
+  folded ///< only its title, until the reader opens it; printed in full
+};
 
-/// Notes in a highlighted box; "" if there are none.  Their text is escaped.
+/// Parts of a page; their texts are HTML already.
+std::string section(const std::string &id, const std::string &title, const std::string &content,
+                    Shown shown = Shown::open); ///< "" if empty
+std::string figure(const std::string &svg, const std::string &caption = "");
+std::string folded(const std::string &title, const std::string &content); ///< "" if empty
+
+constexpr std::size_t open_figures = 2; ///< of a section: charts that fill a screen
+/// Figures one below the other, of which all but the first are folded.
+std::string first_figures(const std::vector<std::string> &figures, std::size_t shown = open_figures);
+
+/// Notes in a highlighted box, a line each until it is opened; "" if there are none.  Their text is escaped.
 std::string note_box(const std::vector<std::string> &notes, const std::string &heading = "");
+
+/// A number that a page begins with.
+struct KeyNumber
+{
+  std::string value, meaning;
+};
+
+/// What a page begins with: its answer in a sentence and a few numbers; escaped.
+struct Headline
+{
+  std::string            sentence{};
+  std::vector<KeyNumber> numbers{};
+
+  std::string html() const; ///< "" if empty
+};
 
 /// A stand-alone page without external references; title and lead are escaped.
 struct Page
@@ -47,7 +74,7 @@ public:
   void add_note(const std::string &text); ///< a row over all columns
   bool is_empty() const { return rows_.empty(); }
 
-  std::string html() const { return in_box("wide"); }            ///< in a box that scrolls sideways if necessary
+  std::string html() const; ///< in a box that scrolls sideways if necessary, a long one also down
   std::string scrolled_html() const { return in_box("scroll"); } ///< in a box that scrolls long tables
   std::string terminal() const;                                  ///< the table as text in columns
 

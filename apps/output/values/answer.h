@@ -1,5 +1,7 @@
 #pragma once
 
+#include "apps/output/text/html.h"
+
 #include <complex>
 #include <memory>
 #include <string>
@@ -34,7 +36,9 @@ public:
   /// Sections for people, on the page of the report and in a terminal.
   virtual std::vector<Section> sections(const Result &result) const = 0;
   /// "Frequency responses": subject of the report's first sentence, "... were computed"; empty: the subject is the run.
-  virtual std::string             subject() const { return ""; }
+  virtual std::string subject() const { return ""; }
+  /// What the report begins with; empty: the subject, or the run.
+  virtual Headline                headline() const { return {}; }
   virtual std::vector<NamedArray> arrays() const { return {}; }
 };
 

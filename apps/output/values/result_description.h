@@ -64,6 +64,7 @@ void describe(Visitor &v, const PeakState &x)
 {
   v("signal", x.signal, "", "name of the signal");
   v("value", x.value, x.unit, "extreme value");
+  v("unit", x.unit, "", "of `value`");
   v("t", x.t, "s", "instant of the extreme");
   v("half_swing", x.half_swing > 0. ? std::optional(x.half_swing) : std::nullopt, "s",
     "half-period: time to the neighbouring turning point; null: none");
@@ -175,6 +176,9 @@ void describe(Visitor &v, const Result &x)
   v("energy", keeps_energy ? std::optional(run.energy) : std::nullopt, "", "energy balance; null: not computed");
   v("warnings", all_warnings(x), "", "texts of all findings");
   v("findings", all_findings(x), "", "warnings, and the reason for an early stop");
+  v("units", std::vector<std::pair<std::string, std::string>>(), "",
+    "unit of each member whose unit is the same in all results, by the path of the member; others have a member "
+    "`unit` of their own");
 }
 
 } // namespace gestell::apps

@@ -58,6 +58,7 @@ void describe(Visitor &v, const LoadDuration &x)
   v("begin", x.begin, "s", "first instant above 1 % of the peak");
   v("end", x.end, "s", "last instant above 1 % of the peak");
   v("peak", x.peak, x.unit, "largest force, with sign");
+  v("unit", x.unit, "", "of `peak`");
   v("t_peak", x.t_peak, "s", "its time");
   v("rise", x.rise, "s", "time from the start to 90 % of the peak");
   v("t_fall", x.t_fall, "s", "time at which the force drops below 90 % of the peak");

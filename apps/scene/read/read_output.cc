@@ -216,7 +216,7 @@ const std::vector<Key> &output_keys()
           .into(&coupling::RunOptions::picture_step),
       key::truth("allow_large", coupling::RunOptions().allow_large,
                  "accept more than 1 GB of history and states, or 20 000 pictures, which is otherwise an error; write "
-                 "every picture to `motion/`, otherwise at most 100 and 20 MB")
+                 "every picture to `motion/`, otherwise at most 100, and as many as keep all files within 20 MB")
           .into(&coupling::RunOptions::allow_large),
       key::table("stress", {}, "stresses, [see there](#stress)").by_default("none"),
       key::table("stages", {}, "parts of the run between events, [see there](#stages)").by_default("none")};

@@ -32,13 +32,13 @@ int output_named(const StudyFile &study, const SceneTable &table, const std::str
 }
 
 /// Surfaces and searches go between the levels of a variable.
-void refuse_variables_of_words(const StudyFile &study, const SceneTable &table, const std::string &asks)
+void refuse_stepped_variables(const StudyFile &study, const SceneTable &table, const std::string &asks)
 {
   for (const VariableRequest &variable : study.variables)
-    if (!variable.variable.words.empty())
-      throw table.error("variable " + variable.variable.name +
-                        " takes words, between which there is nothing; leave it out of the study, or leave out " +
-                        asks);
+    if (variable.variable.stepped)
+      throw table.error("variable " + variable.variable.name + " takes " +
+                        (variable.files.empty() ? "words" : "files") +
+                        ", between which there is nothing; leave it out of the study, or leave out " + asks);
 }
 
 SurfaceRequest read_surface(const StudyFile &study, const SceneTable &table)
@@ -49,7 +49,7 @@ SurfaceRequest read_surface(const StudyFile &study, const SceneTable &table)
   if (!(request.options.level > 0. && request.options.level < 1.))
     throw table.error("confidence", "needs a number above 0 and below 1, such as 0.95 or \"95 %\", got " +
                                         short_text(request.options.level));
-  refuse_variables_of_words(study, table, "[surface]");
+  refuse_stepped_variables(study, table, "[surface]");
   if (table.has("outputs"))
     request.outputs = table.texts("outputs");
   for (const std::string &name : request.outputs)
@@ -142,7 +142,7 @@ OptimiseRequest read_optimise(const StudyFile &study, const SceneTable &table, O
     throw table.error("pareto", "a front needs two goals or more");
   if (const auto robust = table.optional_table("robust"))
     request.robust = read_robust(study, *robust);
-  refuse_variables_of_words(study, table, "[optimise]");
+  refuse_stepped_variables(study, table, "[optimise]");
   return request;
 }
 

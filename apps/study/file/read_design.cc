@@ -100,12 +100,13 @@ Eigen::MatrixXd read_list(const StudyFile &study, const SceneTable &table, const
   return list;
 }
 
-void refuse_words(const StudyFile &study, const SceneTable &table, const std::string &type)
+void refuse_steps(const StudyFile &study, const SceneTable &table, const std::string &type)
 {
   for (const VariableRequest &request : study.variables)
-    if (!request.variable.words.empty() && type != "list" && type != "full factorial")
+    if (request.variable.stepped && type != "list" && type != "full factorial")
       throw table.error("type", "\"" + type + "\" takes values between the levels of a variable, but those of " +
-                                    request.variable.name + " are words; take \"full factorial\" or \"list\"");
+                                    request.variable.name + " are " + (request.files.empty() ? "words" : "files") +
+                                    "; take \"full factorial\" or \"list\"");
 }
 
 /// Keys that only some types take.
@@ -159,7 +160,7 @@ StudyPoints read_design(const StudyFile &study)
   DesignRequest    request;
   request.type = table.choice("type");
   refuse_others(table, request.type);
-  refuse_words(study, table, request.type);
+  refuse_steps(study, table, request.type);
   request.runs          = whole_or(table, "runs", 0);
   request.levels        = whole_or(table, "levels", 0);
   request.centre_points = whole_or(table, "centre_points", 0);

@@ -46,9 +46,34 @@ void read_words(const SceneNode &levels, VariableRequest &request)
     request.variable.words.push_back(word);
     request.variable.levels.push_back(double(request.variable.words.size()) - 1.);
   }
-  request.folder        = levels.folder;
-  request.variable.from = 0.;
-  request.variable.to   = double(request.variable.words.size()) - 1.;
+  request.folder           = levels.folder;
+  request.variable.stepped = true;
+  request.variable.from    = 0.;
+  request.variable.to      = double(request.variable.words.size()) - 1.;
+}
+
+/// { file = "walls_15.step", value = "15 mm" }, ...: values of which each is a file to the scene.
+std::vector<double> read_files(const SceneNode &levels, VariableRequest &request)
+{
+  const std::string   place = "variables." + request.variable.name + ".levels: ";
+  std::vector<double> values;
+  for (const SceneNode &level : levels.elements)
+  {
+    const SceneNode *file = level.find("file"), *value = level.find("value");
+    if (!file || file->type != Type::text || !value || level.entries.size() != 2)
+      level.place.fail(place +
+                       "needs a file with its value in each, { file = \"walls_15.step\", value = \"15 mm\" }, "
+                       "got " +
+                       described(level));
+    values.push_back(in_unit(*value, request.variable, "levels"));
+    for (const auto &[other, name] : request.files)
+      if (other == values.back())
+        value->place.fail(place + "'" + name + "' and '" + file->text + "' have the same value; give each its own");
+    request.files.emplace_back(values.back(), file->text);
+  }
+  request.folder           = levels.folder;
+  request.variable.stepped = true;
+  return values;
 }
 
 void read_levels(const SceneNode &node, const SceneTable &table, VariableRequest &request)
@@ -59,12 +84,16 @@ void read_levels(const SceneNode &node, const SceneTable &table, VariableRequest
   if (levels.type != Type::array || levels.elements.size() < 2)
     throw table.error("levels", "needs an array of two values or more, such as [\"800 kN/mm\", \"900 kN/mm\"], got " +
                                     described(levels));
-  if (!starts_with_number(levels.elements.front()))
+  const bool files = levels.elements.front().type == Type::table;
+  if (!files && !starts_with_number(levels.elements.front()))
     return read_words(levels, request);
   StudyVariable      &variable = request.variable;
   std::vector<double> values;
-  for (const SceneNode &level : levels.elements)
-    values.push_back(in_unit(level, variable, "levels"));
+  if (files)
+    values = read_files(levels, request);
+  else
+    for (const SceneNode &level : levels.elements)
+      values.push_back(in_unit(level, variable, "levels"));
   try
   {
     variable = variable_of_levels(variable, values);
@@ -88,8 +117,9 @@ void read_choices(const SceneNode &node, const SceneTable &table, VariableReques
     request.choices.push_back(value);
     request.variable.levels.push_back(double(request.variable.words.size()) - 1.);
   }
-  request.variable.from = 0.;
-  request.variable.to   = double(request.variable.words.size()) - 1.;
+  request.variable.stepped = true;
+  request.variable.from    = 0.;
+  request.variable.to      = double(request.variable.words.size()) - 1.;
 }
 
 void read_scatter(const SceneNode &node, const SceneTable &table, StudyVariable &variable)

@@ -45,7 +45,9 @@ const std::vector<Key> &study_variable_keys()
           .by_default("`parameters.NAME`"),
       key::plain("from", Key::Form::quantity, "coded value -1").by_default("`levels`"),
       key::plain("to", Key::Form::quantity, "coded value +1").by_default("`levels`"),
-      key::plain("levels", Key::Form::texts, "levels of a factorial design: numbers, strings with a unit, words")
+      key::plain("levels", Key::Form::texts,
+                 "levels of a factorial design: numbers, strings with a unit, words, or files with the value of each, "
+                 "`{ file = \"walls_15.step\", value = \"15 mm\" }`")
           .by_default("`from`, `to`"),
       key::plain("choices", Key::Form::map,
                  "named values of any type, also tables, instead of levels: `{ soft = { ... }, hard = { ... } }`")

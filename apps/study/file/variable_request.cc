@@ -60,13 +60,24 @@ double in_unit(const SceneNode &value, StudyVariable &variable, const std::strin
   return number.value;
 }
 
+std::string VariableRequest::file(double level) const
+{
+  const auto nearer = [&](const auto &a, const auto &b)
+  { return std::abs(a.first - level) < std::abs(b.first - level); };
+  return files.empty() ? "" : std::min_element(files.begin(), files.end(), nearer)->second;
+}
+
 double VariableRequest::level(const SceneNode &value) const
 {
   const std::vector<std::string> &words = variable.words;
   if (words.empty())
   {
-    StudyVariable copy = variable;
-    return in_unit(value, copy, "value");
+    StudyVariable copy  = variable;
+    const double  level = in_unit(value, copy, "value");
+    if (!files.empty() && std::find(variable.levels.begin(), variable.levels.end(), level) == variable.levels.end())
+      value.place.fail("variable " + variable.name + ": no file has the value " + variable.text(level) +
+                       "; add it to 'levels', or give one of the values there");
+    return level;
   }
   const std::string word  = value.type == ValueType::boolean ? (value.boolean ? "true" : "false") : value.text;
   const auto        found = std::find(words.begin(), words.end(), word);

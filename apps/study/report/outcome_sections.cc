@@ -110,7 +110,7 @@ std::string searches_table(const StudyFindings &findings)
       row.push_back(short_text(xi));
     table.add(row);
   }
-  return "<h3>Searches from several starts</h3>" + table.scrolled_html();
+  return folded("Searches from several starts", table.scrolled_html());
 }
 
 std::string optimum_words(const StudyFindings &findings)

@@ -6,6 +6,7 @@
 #include "apps/study/report/scatter_matrix.h"
 #include "apps/study/report/shown_axis.h"
 #include "apps/study/report/surface_sections.h"
+#include "apps/study/report/variable_charts.h"
 
 #include <algorithm>
 #include <cctype>
@@ -46,11 +47,10 @@ std::string overview(const StudyFindings &findings)
     else
       variables.add({variable.name, keys, variable.words.front(), variable.words.back()});
   }
-  return "<p>" +
-         escape_xml(count_text(table.n_runs(), "run") + " of " + findings.scene + " (" + design_text(findings.design) +
-                    "): " + std::to_string(table.n_done()) + " done, " + std::to_string(failed) + " failed; " +
-                    short_text(cpu, 3) + " s of processor time.") +
-         "</p>\n" + variables.html();
+  const std::string sentence = count_text(table.n_runs(), "run") + " of " + findings.scene + " (" +
+                               design_text(findings.design) + "): " + std::to_string(table.n_done()) + " done, " +
+                               std::to_string(failed) + " failed; " + short_text(cpu, 3) + " s of processor time.";
+  return study_headline(findings, sentence).html() + folded("Variables", variables.html());
 }
 
 std::string scatter_section(const StudyFindings &findings, Pictures &pictures)
@@ -80,7 +80,8 @@ std::string scatter_section(const StudyFindings &findings, Pictures &pictures)
                ? " Of " + std::to_string(n) + " columns at most " + std::to_string(most_scatter_columns) +
                      " are shown, none that is the same in all runs."
                : "") +
-          "</p>\n");
+          "</p>\n",
+      Shown::folded);
 }
 
 HtmlTable::Cell run_cell(const StudyTable &table, int run)
@@ -140,6 +141,7 @@ std::string study_contents(const std::string &body)
   std::string html = "<nav>";
   for (const auto &[id, name] : {std::pair("optimum", "Optimum"),
                                  {"choice", "The best run"},
+                                 {"over", "Over a variable"},
                                  {"effects", "Effects"},
                                  {"front", "Pareto front"},
                                  {"surfaces", "Surfaces"},
@@ -165,15 +167,15 @@ StudyReport make_study_report(const StudyFindings &findings)
 {
   StudyReport       report;
   const std::string body = optimum_section(findings) + choice_section(findings, report.pictures) +
+                           over_variable_section(findings, report.pictures) +
                            effects_section(findings, report.pictures) + front_section(findings, report.pictures) +
                            surfaces_section(findings, report.pictures) + robust_section(findings) +
                            scatter_section(findings, report.pictures) + runs_section(findings);
   make_file_names(report.pictures);
   report.html = page_html({findings.name, findings.description,
-                           note_box(findings.warnings, "Warnings") + study_contents(body) + overview(findings) + body,
+                           overview(findings) + note_box(findings.warnings, "Warnings") + study_contents(body) + body,
                            "Computed with gestell " + escape_xml(findings.version) +
-                               ". All numbers stand in full precision in the .csv files beside this page.",
-                           "summary { cursor: pointer; color: var(--soft); margin: .5rem 0; }\n"});
+                               ". All numbers stand in full precision in the .csv files beside this page."});
   return report;
 }
 

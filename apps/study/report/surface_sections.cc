@@ -30,13 +30,6 @@ std::string drawn(const std::string &name, const std::string &svg, Pictures &pic
   return figure(svg);
 }
 
-/// Something that is folded away.
-std::string folded(const std::string &title, const std::string &html, bool open = false)
-{
-  return std::string("<details") + (open ? " open" : "") + "><summary>" + escape_xml(title) + "</summary>\n" + html +
-         "</details>\n";
-}
-
 std::string unchanged_note(const ResponseSurface &surface)
 {
   return "<p>" + escape_xml(surface.output.name) + " does not change over the runs.</p>\n";
@@ -239,16 +232,17 @@ std::string effects_section(const StudyFindings &findings, Pictures &pictures)
 {
   if (findings.surfaces.empty())
     return "";
-  std::string html;
+  std::vector<std::string> drawn_effects;
   for (std::size_t i = 0; i < n_pictured(findings); ++i)
-    html += findings.surfaces[i].changes()
-                ? drawn("effects_" + findings.surfaces[i].output.name,
-                        effect_picture(findings.surfaces[i], middle_of(findings, findings.surfaces[i])), pictures)
-                : unchanged_note(findings.surfaces[i]);
+    drawn_effects.push_back(findings.surfaces[i].changes()
+                                ? drawn("effects_" + findings.surfaces[i].output.name,
+                                        effect_picture(findings.surfaces[i], middle_of(findings, findings.surfaces[i])),
+                                        pictures)
+                                : unchanged_note(findings.surfaces[i]));
   return section("effects", "Effects",
                  "<p>By the surfaces: each variable covers its range, the others stay at their midpoints. The value "
                  "at the midpoint is that of the surface, next to it that of the run there, if one was made.</p>\n" +
-                     html + left_out_note(findings) + shares_table(findings));
+                     first_figures(drawn_effects) + left_out_note(findings) + shares_table(findings));
 }
 
 std::string surfaces_section(const StudyFindings &findings, Pictures &pictures)
@@ -260,7 +254,7 @@ std::string surfaces_section(const StudyFindings &findings, Pictures &pictures)
     html += of_output(findings, findings.surfaces[i], pictures);
   const SurfaceOrder order = findings.surfaces.front().order;
   const std::string  kind  = order == SurfaceOrder::interactions ? "linear with interactions" : order_word(order);
-  return section("surfaces", "Response surfaces, " + kind, html + left_out_note(findings));
+  return section("surfaces", "Response surfaces, " + kind, html + left_out_note(findings), Shown::folded);
 }
 
 } // namespace gestell::apps

@@ -1,7 +1,7 @@
 #include "apps/study/results/findings_text.h"
 
+#include "apps/output/text/change_text.h"
 #include "apps/study/report/choice_section.h"
-
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -12,12 +12,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-std::string with_unit(double value, const std::string &unit)
-{
-  const DisplayUnit shown = display_unit(unit, std::abs(value));
-  return short_text(value * shown.factor, 5) + (shown.unit.empty() ? "" : ' ' + shown.unit);
-}
 
 void tell_surfaces(const StudyFindings &findings, std::ostream &text)
 {
@@ -31,7 +25,7 @@ void tell_surfaces(const StudyFindings &findings, std::ostream &text)
     }
     text << "surface of " << surface.output.name << ": R2 " << short_text(fit.r2, 5) << ", adjusted "
          << short_text(fit.adjusted_r2, 5) << ", predicted " << short_text(fit.predicted_r2, 5) << ", standard error "
-         << with_unit(fit.standard_error, surface.output.unit) << '\n';
+         << quantity_text(fit.standard_error, surface.output.unit, 5) << '\n';
   }
 }
 
@@ -50,11 +44,11 @@ void tell_optimum(const StudyFindings &findings, std::ostream &text)
   {
     const auto at = Eigen::Index(i);
     text << "  " << std::left << std::setw(12) << table.outputs[i].name << ' '
-         << with_unit(optimum.found.values[at], table.outputs[i].unit);
+         << quantity_text(optimum.found.values[at], table.outputs[i].unit, 5);
     if (optimum.verified)
-      text << ", by a run " << with_unit((*optimum.verified)[at], table.outputs[i].unit);
+      text << ", by a run " << quantity_text((*optimum.verified)[at], table.outputs[i].unit, 5);
     if (optimum.nominal)
-      text << "; in the middle of all ranges " << with_unit((*optimum.nominal)[at], table.outputs[i].unit);
+      text << "; in the middle of all ranges " << quantity_text((*optimum.nominal)[at], table.outputs[i].unit, 5);
     text << '\n';
   }
 }
@@ -73,8 +67,8 @@ std::string findings_text(const StudyFindings &findings)
     text << "front of the goals: " << findings.front.size() << " points in front.csv\n";
   for (const RobustResult &result : findings.robust)
     for (const RobustFigures &figures : result.figures)
-      text << "scatter: " << figures.output.name << " " << with_unit(figures.mean, figures.output.unit)
-           << ", standard deviation " << with_unit(figures.deviation, figures.output.unit) << '\n';
+      text << "scatter: " << figures.output.name << " " << quantity_text(figures.mean, figures.output.unit, 5)
+           << ", standard deviation " << quantity_text(figures.deviation, figures.output.unit, 5) << '\n';
   return text.str();
 }
 

@@ -114,9 +114,9 @@ void StudyAnalysis::keep_row(const RunRow &row, const Eigen::VectorXd &levels)
     OwnFolder folder(file_.parent_path());
     folder.claim(file_.filename().string());
     folder.remove(file_.filename().string());
-    rows_ = std::make_unique<RowsFile>(file_, text_);
+    rows_ = std::make_unique<RowsFile>(file_);
   }
-  rows_->append(text_.line(row, levels));
+  rows_->append(text_.head(row.units), text_.line(row, levels));
 }
 
 Eigen::VectorXd StudyAnalysis::levels_at(const Eigen::VectorXd &xi) const

@@ -169,13 +169,16 @@ Segments keys_of(const Json &json)
   return keys;
 }
 
-std::string unit_in_summary(const Segments &segments)
+/// By the path with "[]" in place of numbers; "" of a number without a unit.
+std::string unit_in_summary(const Segments &segments, const Json &units)
 {
-  if (segments.front() == "energy")
-    return "J";
-  if (segments.front() == "frame_frequencies_hz" || segments.back().find("_hz") != std::string::npos)
-    return "Hz";
-  return segments.back().find("mass") == std::string::npos ? "" : "kg";
+  std::string path;
+  for (const std::string &segment : segments)
+    path += is_count(segment) ? "[]" : (path.empty() ? "" : ".") + segment;
+  if (is_count(segments.back())) // a list has a unit as a whole
+    path.resize(path.size() - 2);
+  const std::string unit = units.value(path, "");
+  return unit == "1" ? "" : unit;
 }
 
 /// Of summary.json; elements of arrays are counted from 1.
@@ -201,7 +204,7 @@ AnswerValue summary_value(const Segments &segments, const Result &result)
   if (!node->is_number())
     refuse(segments, "is not a number in a run's summary.json" +
                          (node->is_object() ? "; name one of its entries: " + listed(keys_of(*node)) : ""));
-  return {node->get<double>(), unit_in_summary(segments)};
+  return {node->get<double>(), unit_in_summary(segments, all["units"])};
 }
 
 } // namespace

@@ -58,14 +58,27 @@ std::string number_cell(double value)
 
 } // namespace
 
-std::string RowsText::head() const
+std::string RowsText::head(const std::vector<std::string> &units) const
 {
   std::string line = "run,status";
   for (const VariableRequest &request : variables_)
-    line += ',' + request.variable.name;
-  for (const OutputRequest &output : outputs_)
-    line += ',' + output.name;
+    line += ',' + cell(request.variable.head());
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    line += ',' + cell(StudyOutput{outputs_[i].name, i < units.size() ? units[i] : ""}.head());
   return line + ",cpu_s\n";
+}
+
+bool RowsText::is_head(const std::string &line) const
+{
+  const auto names = [](const std::string &head)
+  {
+    std::vector<std::string> cells = csv_cells(head);
+    for (std::string &name : cells)
+      name.resize(std::min(name.size(), name.find(" [")));
+    return cells;
+  };
+  const std::string own = head();
+  return names(line) == names(own.substr(0, own.size() - 1));
 }
 
 std::string RowsText::line(const RunRow &row, const Eigen::VectorXd &levels) const
@@ -108,7 +121,7 @@ std::vector<RunRow> read_rows(const std::filesystem::path &file, const RowsText 
     if (in.eof()) // its end was not written
       break;
     const std::string place = file.string() + ":" + std::to_string(number) + ": ";
-    if (number == 1 && line + '\n' != text.head())
+    if (number == 1 && !text.is_head(line))
       throw std::invalid_argument(place + "has other columns than this study: " + line +
                                   "; give each study a folder of its own with -o");
     try
@@ -124,7 +137,7 @@ std::vector<RunRow> read_rows(const std::filesystem::path &file, const RowsText 
   return rows;
 }
 
-RowsFile::RowsFile(const std::filesystem::path &file, const RowsText &text) : path_(file)
+RowsFile::RowsFile(const std::filesystem::path &file) : path_(file)
 {
   file_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
   if (file_ < 0)
@@ -142,8 +155,6 @@ RowsFile::RowsFile(const std::filesystem::path &file, const RowsText &text) : pa
     whole += off_t(line.size()) + 1;
   if (ftruncate(file_, whole) != 0 || lseek(file_, 0, SEEK_END) < 0)
     throw coupling::WriteFailure(file.string(), std::error_code(errno, std::generic_category()));
-  if (whole == 0)
-    append(text.head());
 }
 
 RowsFile::~RowsFile()
@@ -151,7 +162,14 @@ RowsFile::~RowsFile()
   close(file_);
 }
 
-void RowsFile::append(const std::string &line)
+void RowsFile::append(const std::string &head, const std::string &line)
+{
+  if (lseek(file_, 0, SEEK_CUR) == 0)
+    write_line(head);
+  write_line(line);
+}
+
+void RowsFile::write_line(const std::string &line)
 {
   const off_t before = lseek(file_, 0, SEEK_CUR);
   for (std::size_t done = 0; done < line.size();)

@@ -8,13 +8,17 @@
 namespace gestell::apps
 {
 
-/// The table of a study's runs as text: run, status, variables, outputs, cpu_s.
+/// The table of a study's runs as text: run, status, variables, outputs, cpu_s; with units of variables and outputs in
+/// the head, "rod [kN/mm]".
 class RowsText
 {
 public:
   explicit RowsText(const StudyFile &study) : variables_(study.variables), outputs_(study.outputs) {}
 
-  std::string head() const;
+  /// @param units  of the outputs; empty: not known yet
+  std::string head(const std::vector<std::string> &units = {}) const;
+  /// Whether this is the head of such a table, with or without units.
+  bool is_head(const std::string &line) const;
   /// With the end of the line.
   std::string line(const RunRow &row, const Eigen::VectorXd &levels) const;
   /// @throws std::invalid_argument without a place
@@ -35,12 +39,15 @@ class RowsFile
 public:
   /// Goes on with a file that is there, from the end of its last whole line.
   /// @throws std::runtime_error if it cannot be written; std::invalid_argument if another process writes it
-  RowsFile(const std::filesystem::path &file, const RowsText &text);
+  explicit RowsFile(const std::filesystem::path &file);
   ~RowsFile();
   RowsFile(const RowsFile &) = delete;
-  void append(const std::string &line);
+  /// @param head  line above the first row
+  void append(const std::string &head, const std::string &line);
 
 private:
+  void write_line(const std::string &line);
+
   std::filesystem::path path_;
   int                   file_ = -1;
 };

@@ -23,14 +23,14 @@ SceneNode value_node(const VariableRequest &request, double level)
   SceneNode node;
   node.place.file = request.place;
   node.folder     = request.folder;
-  node.text       = request.text(level);
+  node.text       = request.files.empty() ? request.text(level) : request.file(level);
   node.type       = SceneNode::Type::text;
   if (node.text == "true" || node.text == "false")
   {
     node.type    = SceneNode::Type::boolean;
     node.boolean = node.text == "true";
   }
-  else if (request.variable.words.empty() && request.variable.unit.empty())
+  else if (request.variable.words.empty() && request.variable.unit.empty() && request.files.empty())
   {
     const bool whole = level == std::nearbyint(level) && std::abs(level) < 1e15;
     node.type        = whole ? SceneNode::Type::integer : SceneNode::Type::real;
@@ -156,7 +156,10 @@ Eigen::VectorXd SceneVariants::middle() const
 {
   Eigen::VectorXd levels(study_.variables.size());
   for (std::size_t i = 0; i < study_.variables.size(); ++i)
-    levels[Eigen::Index(i)] = study_.variables[i].variable.words.empty() ? study_.variables[i].variable.centre() : 0.;
+  {
+    const StudyVariable &variable = study_.variables[i].variable;
+    levels[Eigen::Index(i)]       = variable.stepped ? variable.from : variable.centre();
+  }
   return levels;
 }
 

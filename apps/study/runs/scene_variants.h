@@ -40,7 +40,7 @@ public:
   /// [SI] as it is set now.
   double measured(const RunParameter &measure, const Eigen::VectorXd &levels) const;
 
-  Eigen::VectorXd middle() const; ///< of all ranges; of words the first
+  Eigen::VectorXd middle() const; ///< of all ranges; of words and files the first
 
 private:
   void set(const std::string &key, const SceneNode &value);

@@ -73,10 +73,11 @@ StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyR
     if (call.share.has(run) && table.runs[std::size_t(run) - 1].status == RunStatus::waiting)
       orders.push_back({run, table.levels.row(run - 1).transpose()});
   {
-    RowsFile   rows(folder.rows_file(call.share), text);
+    RowsFile   rows(folder.rows_file(call.share));
     const auto take = [&](const RunRow &row)
     {
-      rows.append(text.line(row, table.levels.row(row.run - 1).transpose()));
+      rows.append(text.head(folder.units().empty() ? row.units : folder.units()),
+                  text.line(row, table.levels.row(row.run - 1).transpose()));
       enter(row, table);
       if (folder.units().empty() && !row.units.empty())
       {

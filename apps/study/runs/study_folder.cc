@@ -187,7 +187,7 @@ void StudyFolder::keep_units(const std::vector<std::string> &units)
 
 void StudyFolder::merge(const std::vector<RunRow> &rows)
 {
-  std::string text = text_.head();
+  std::string text = text_.head(record_.units);
   for (const RunRow &row : rows)
     text += text_.line(row, levels_.row(row.run - 1).transpose());
   write_file(folder_ / "runs.csv", text);

@@ -87,14 +87,16 @@ StudyRecord record_of(const StudyFile &study, const SceneVariants &variants, int
   {
     for (const SceneNode &choice : request.choices)
       add_contents(choice, record.entries);
-    for (const std::string &word : request.variable.words)
+    std::vector<std::string> words = request.choices.empty() ? request.variable.words : std::vector<std::string>();
+    for (const auto &[value, file] : request.files)
+      words.push_back(file);
+    for (const std::string &word : words)
     {
       SceneNode node;
       node.type   = SceneNode::Type::text;
       node.text   = word;
       node.folder = request.folder;
-      if (request.choices.empty())
-        add_contents(node, record.entries);
+      add_contents(node, record.entries);
     }
   }
   return record;

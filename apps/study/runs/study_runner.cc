@@ -49,13 +49,13 @@ Eigen::VectorXd entry_derivative(const std::vector<std::string> &path, const Sen
 }
 
 /// Entries of the scene by which a run is differentiated for these variables, "parameters.c_P,parameters.s_cl".
-/// @throws std::invalid_argument for a variable with several keys, or words
+/// @throws std::invalid_argument for a variable with several keys, words or files
 std::string differentiated_keys(const std::vector<VariableRequest> &variables)
 {
   std::string keys;
   for (const VariableRequest &request : variables)
   {
-    if (request.keys.size() != 1 || !request.variable.words.empty())
+    if (request.keys.size() != 1 || request.variable.stepped)
       throw std::invalid_argument("variable " + request.variable.name + " has no derivatives");
     keys += (keys.empty() ? "" : ",") + request.keys.front();
   }

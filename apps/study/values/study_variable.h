@@ -28,9 +28,10 @@ struct StudyVariable
   double                   from = -1., to = 1.;
   std::vector<double>      levels{}; ///< of a full factorial design, ascending; empty: as many as it asks for, evenly
   Scatter                  scatter = Scatter::none;
-  double                   width   = 0.; ///< of the scatter, in the unit of the variable
-  std::vector<std::string> words{};      ///< of a variable that takes words: level k is the k-th of them
-  std::vector<std::string> more_keys{};  ///< of the scene, that take its value, too
+  double                   width   = 0.;    ///< of the scatter, in the unit of the variable
+  std::vector<std::string> words{};         ///< of a variable that takes words: level k is the k-th of them
+  bool                     stepped = false; ///< it has nothing between its levels: words, or values of files
+  std::vector<std::string> more_keys{};     ///< of the scene, that take its value, too
 
   double centre() const { return 0.5 * (from + to); }
   double half_range() const { return 0.5 * (to - from); }

@@ -149,6 +149,31 @@ std::vector<int> found_by(const SurfaceSelector &selector, const std::vector<fem
 
 } // namespace
 
+std::vector<FaceGroup> bores_of(const fem::Face &face, const std::vector<fem::Face> &faces, double diagonal)
+{
+  if (face.kind != fem::FaceKind::cylinder)
+    return {};
+  const Vector3   middle = 0.5 * (face.min + face.max);
+  SurfaceSelector selector =
+      by_surface(face, face.through + fem::dot(middle - face.through, face.direction) * face.direction);
+  std::vector<FaceGroup> groups;
+  const auto             add = [&](const std::string &name, const std::vector<int> &found)
+  {
+    const bool larger = found.size() > (groups.empty() ? 1 : groups.back().faces.size());
+    if (larger && std::binary_search(found.begin(), found.end(), face.tag))
+      groups.push_back({name, found, toml(selector)});
+  };
+  add("this bore", found_by(selector, faces, diagonal));
+  selector.faces             = 0;
+  const std::vector<int> all = found_by(selector, faces, diagonal);
+  for (int n = static_cast<int>(all.size()); n > 1; --n) // the least number that selects them: of bores, not of faces
+    if (SurfaceSelector counted = selector; counted.faces = n, found_by(counted, faces, diagonal) == all)
+      selector = counted;
+  if (selector.faces > 1)
+    add("the coaxial bores of this radius", all);
+  return groups;
+}
+
 FaceSelector selector_of(const fem::Face &face, const std::vector<fem::Face> &faces, double diagonal)
 {
   constexpr double by_default = 1e-4; // tolerance of selectors, of the model's diagonal

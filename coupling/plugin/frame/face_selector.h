@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/plugin/mesh_report.h"
 #include "fem/geometry/face.h"
 
 #include <string>
@@ -24,5 +25,8 @@ struct FaceSelector
  * @param diagonal  of the model [m]
  */
 FaceSelector selector_of(const fem::Face &face, const std::vector<fem::Face> &faces, double diagonal);
+
+/// Of the face of a cylinder: the whole bore, if it has several faces, and all bores about its axis with its radius.
+std::vector<FaceGroup> bores_of(const fem::Face &face, const std::vector<fem::Face> &faces, double diagonal);
 
 } // namespace gestell::coupling

@@ -210,7 +210,7 @@ MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &pro
     const FaceSelector own = selector_of(face, geometry.faces, diagonal);
     report.surfaces.push_back({face.tag, names_of(face, geometry.surfaces), shape_of(face), own.text, face.area,
                                face.min, face.max, face.centre, own.others, kind_of(face), face.direction, face.through,
-                               face.radius});
+                               face.radius, bores_of(face, geometry.faces, diagonal)});
   }
   report.picture = picture_of(geometry);
   report.unit    = file_unit(frame);

@@ -7,6 +7,9 @@
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
+#include <algorithm>
+#include <map>
+
 namespace gestell::tests
 {
 namespace
@@ -25,15 +28,23 @@ fem::FrameSpecification frame_of(const std::string &file, double unit)
   return frame;
 }
 
-/// A scene whose frame names every face by the selector that is told of it.
-std::string scene_with(const fem::FrameSpecification &frame, const MeshReport &report)
+/// A scene whose frame has these surfaces.
+std::string scene_with(const fem::FrameSpecification &frame, const MeshReport &report, const std::string &surfaces)
 {
   std::string text = "name = \"faces\"\n[frame]\ncad = \"" + frame.cad + "\"\nmesh = { size = 0.6 }\n";
   if (frame.unit > 0.)
     text += "unit = " + std::to_string(frame.unit) + "\n";
-  for (const coupling::SurfaceReport &face : report.surfaces)
-    text += apps::face_entry(face);
-  return text + "[frame.interface.any]\nsurfaces = [\"face " + std::to_string(report.surfaces.front().tag) + "\"]\n";
+  return text + surfaces + "[frame.interface.any]\nsurfaces = [\"face " + std::to_string(report.surfaces.front().tag) +
+         "\"]\n";
+}
+
+/// Names of surfaces that each face bears in the report of a frame with these surfaces.
+MeshReport named_by(const fem::FrameSpecification &frame, const MeshReport &report, const std::string &surfaces)
+{
+  const Folder      folder("faces");
+  const std::string file  = folder.file("scene.toml", scene_with(frame, report, surfaces));
+  const apps::Scene scene = apps::read_scene(file.substr(1, file.size() - 2), {});
+  return coupling::frame_service().mesh(scene.frame.geometry, {});
 }
 
 struct Sample
@@ -53,11 +64,10 @@ TEST_P(SelectorsOfFaces, MeanEachItsFaceAloneInTheWordsOfAScene)
   const MeshReport report = coupling::frame_service().mesh(frame, {});
   ASSERT_GT(report.surfaces.size(), 40u);
 
-  const Folder      folder("faces");
-  const std::string file  = folder.file("scene.toml", scene_with(frame, report));
-  const apps::Scene scene = apps::read_scene(file.substr(1, file.size() - 2), {});
-  // by the names of surfaces that each face bears in the report of a frame with these selectors
-  const MeshReport named = coupling::frame_service().mesh(scene.frame.geometry, {});
+  std::string surfaces;
+  for (const coupling::SurfaceReport &face : report.surfaces)
+    surfaces += apps::face_entry(face);
+  const MeshReport named = named_by(frame, report, surfaces);
   ASSERT_EQ(named.surfaces.size(), report.surfaces.size());
   for (std::size_t i = 0; i < report.surfaces.size(); ++i)
   {
@@ -65,6 +75,31 @@ TEST_P(SelectorsOfFaces, MeanEachItsFaceAloneInTheWordsOfAScene)
     EXPECT_EQ(named.surfaces[i].name, before.empty() ? own : before + ", " + own);
     EXPECT_TRUE(report.surfaces[i].found_with.empty()) << own;
   }
+}
+
+/// A bore of several faces, and coaxial bores, by one entry each.
+TEST_P(SelectorsOfFaces, OfBoresMeanAllTheirFaces)
+{
+  setenv("GESTELL_PLUGIN_DIR", GESTELL_BINARY_DIR "/bin", 1);
+  const auto                              frame    = frame_of(GetParam().file, GetParam().unit);
+  const MeshReport                        report   = coupling::frame_service().mesh(frame, {});
+  std::string                             surfaces = apps::face_entry(report.surfaces.front());
+  std::map<std::string, std::vector<int>> groups;
+  for (const coupling::SurfaceReport &face : report.surfaces)
+    for (const coupling::FaceGroup &group : face.groups)
+    {
+      EXPECT_GT(group.faces.size(), 1u);
+      const std::string name = "group " + std::to_string(groups.size()) + ".";
+      groups[name]           = group.faces;
+      surfaces += "[frame.surface.\"" + name + "\"]\n" + group.selector;
+    }
+  if (GetParam().file == std::string("press_frame.step")) // front and rear bearing of the crankshaft
+    EXPECT_FALSE(groups.empty());
+  const MeshReport named = named_by(frame, report, surfaces);
+  for (const auto &[name, faces] : groups)
+    for (const coupling::SurfaceReport &face : named.surfaces)
+      EXPECT_EQ(face.name.find(name) != std::string::npos, std::binary_search(faces.begin(), faces.end(), face.tag))
+          << name << " face " << face.tag << ": " << face.name;
 }
 
 TEST(FacesPage, OpensWithoutANetworkInLessThanFiveMegabytes)

@@ -148,6 +148,42 @@ TEST(SummaryJson, FitsItsSchema)
   EXPECT_EQ(departure(schema, wrong, "summary"), "summary.warnings is no \"array\"");
 }
 
+/// The first number with a decimal fraction that neither `units` nor a member `unit` beside it or above it gives a
+/// unit.
+std::string without_unit(const Json &schema, const Json &value, const Json &units, const std::string &at, bool known)
+{
+  known = known || units.contains(at) || (value.is_object() && value.contains("unit"));
+  if (value.is_number_float())
+    return known ? "" : at;
+  for (const auto &[name, own] : value.items())
+    if (own.is_structured() || own.is_number_float())
+    {
+      const bool        member = schema.contains("properties"), item = schema.contains("items");
+      const Json       &inner = member ? schema["properties"][name] : schema[item ? "items" : "additionalProperties"];
+      const std::string path  = at + (member ? (at.empty() ? "" : ".") + name : item ? "[]" : ".NAME");
+      if (const std::string found = without_unit(inner, own, units, path, known); !found.empty())
+        return found;
+    }
+  return "";
+}
+
+TEST(SummaryJson, HasTheUnitOfEveryNumber)
+{
+  const Json schema = Json::parse(summary_schema(result_of_all_kinds()));
+  for (const Result &result : {Result(), example_result(), with_stress(example_result())})
+  {
+    const Json json = Json::parse(summary_json(result));
+    EXPECT_EQ(without_unit(schema, json, json["units"], "", false), "");
+  }
+  const Json json = Json::parse(summary_json(with_stress(example_result()))), units = json["units"];
+  EXPECT_EQ(units["signals.NAME.t_max"], "s");
+  EXPECT_EQ(units["energy.residual"], "J");
+  EXPECT_EQ(units["frequencies_hz"], "Hz");
+  EXPECT_EQ(units["stress.instants[].largest.von_mises"], "Pa");
+  EXPECT_FALSE(units.contains("periodic.solutions[].period")) << "of what this result does not have";
+  EXPECT_EQ(json["signals"]["F_P"]["unit"], "N");
+}
+
 TEST(SummaryJson, EveryMemberHasAMeaning)
 {
   EXPECT_EQ(summary_members(result_of_all_kinds()).find("|  |\n"), std::string::npos);

@@ -13,6 +13,8 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <fstream>
+#include <random>
 #include <regex>
 
 using namespace gestell::apps;
@@ -54,7 +56,7 @@ protected:
     std::stringstream content;
     content << file.rdbuf();
     const std::string text = content.str();
-    const std::regex  entry("timestep=\"([^\"]*)\" part=\"([^\"]*)\" file=\"([^\"]*)\"");
+    const std::regex  entry("timestep=\"([^\"]*)\" part=\"([^\"]*)\" file=\"([^\"]*)\"( name=\"[^\"]*\")?/>");
 
     std::vector<std::tuple<double, int, std::string>> sets;
     for (std::sregex_iterator it(text.begin(), text.end(), entry), end; it != end; ++it)
@@ -78,6 +80,9 @@ TEST_F(ParaviewFiles, MotionHoldsFrameAndMechanismAtEveryInstantWithTrueDisplace
   ASSERT_EQ(sets.size(), 6u);
   EXPECT_EQ(std::get<0>(sets[2]), 0.2);
   EXPECT_EQ(std::get<1>(sets[3]), 1);
+  std::stringstream text;
+  text << std::ifstream(folder / "motion.pvd").rdbuf();
+  EXPECT_NE(text.str().find("mechanism_00000.vtp\" name=\"mechanism\"/>"), std::string::npos);
 
   vtkPolyData *frame = read(std::get<2>(sets[2]));
   ASSERT_EQ(frame->GetNumberOfPoints(), 8);
@@ -218,27 +223,84 @@ TEST_F(ParaviewFiles, MotionIsAHundredPicturesUnlessLargeResultsAreAllowed)
   EXPECT_EQ(data_sets("motion.pvd").size(), 500u);
 }
 
-/// A skin of 40 000 points, as of a large frame: a picture takes 2 MB.
-TEST_F(ParaviewFiles, MotionOfALargeFrameTakesAtMost20Megabytes)
+namespace
 {
-  Result                        result = example_result();
-  gestell::coupling::RunResult &run    = *result.run;
+
+/// A skin of 40 000 points that are random, so that nothing is compressed: a picture takes more than 1.4 MB.
+Result large_result()
+{
+  std::mt19937                          random(1);
+  std::uniform_real_distribution<float> number;
+  Result                                result = example_result();
+  gestell::coupling::RunResult         &run    = *result.run;
   result.frame_modes.clear();
-  result.scenery.points.assign(40000, {0., 0., 0.});
+  result.scenery.points.clear();
+  for (int i = 0; i < 40000; ++i)
+    result.scenery.points.push_back({number(random), number(random), number(random)});
   result.scenery.triangles.assign(40000, {0, 1, 2});
-  result.scenery.displacement = [](const Eigen::VectorXd &p) -> Eigen::VectorXd
-  { return Eigen::VectorXd::Constant(120000, p(0)); };
+  result.scenery.displacement = [=](const Eigen::VectorXd &p) mutable -> Eigen::VectorXd
+  { return Eigen::VectorXd::NullaryExpr(120000, [&] { return p(0) + double(number(random)); }); };
   run.picture_times.clear();
-  for (int k = 0; k < 30; ++k)
+  for (int k = 0; k < 60; ++k)
     run.picture_times.push_back(1e-3 * k);
-  run.picture_states.assign(30, run.picture_states.front());
-  run.picture_velocities.assign(30, Eigen::VectorXd::Zero(4));
-  write_paraview(folder, result, names);
+  run.picture_states.assign(60, run.picture_states.front());
+  run.picture_velocities.assign(60, Eigen::VectorXd::Zero(4));
+  return result;
+}
+
+double bytes_in(const fs::path &folder)
+{
   double bytes = 0.;
-  for (const auto &file : fs::directory_iterator(folder / "motion"))
+  for (const auto &file : fs::directory_iterator(folder))
     bytes += double(fs::file_size(file));
-  EXPECT_LT(bytes, 20e6);
-  EXPECT_GT(bytes, 16e6); // one picture more would be too many
+  return bytes;
+}
+
+} // namespace
+
+TEST_F(ParaviewFiles, OfALargeFrameTakeAtMost20Megabytes)
+{
+  write_paraview(folder, large_result(), names);
+  EXPECT_LT(bytes_in(folder / "motion"), 20e6);
+  EXPECT_GT(bytes_in(folder / "motion"), 17.5e6); // one picture more would be too many
+}
+
+/// Other files of the run count: beside a history of 14 MB there is room for some forty pictures of 130 kB, beside one
+/// of 30 MB only for a film of 24.
+TEST_F(ParaviewFiles, LeaveRoomForTheOtherFilesOfTheRun)
+{
+  Result result = large_result();
+  result.scenery.points.resize(4000);
+  result.scenery.triangles.resize(4000);
+  result.scenery.displacement = [](const Eigen::VectorXd &p) -> Eigen::VectorXd
+  { return Eigen::VectorXd::LinSpaced(12000, p(0), 1.); };
+  names = {"history.csv"};
+  fs::create_directories(folder);
+  std::ofstream(folder / "history.csv") << std::string(14000000, '0');
+  write_paraview(folder, result, names);
+  const double all = bytes_in(folder / "motion") + 14e6;
+  EXPECT_LT(all, 20e6);
+  EXPECT_GT(data_sets("motion.pvd").size(), 2u * 24u);
+
+  std::ofstream(folder / "history.csv") << std::string(30000000, '0');
+  names = {"history.csv"};
+  write_paraview(folder, result, names);
+  EXPECT_EQ(data_sets("motion.pvd").size(), 2u * 24u);
+}
+
+TEST_F(ParaviewFiles, NameTheBodiesAsTextAtPointsThatMoveWithThem)
+{
+  const Result result = example_result();
+  write_paraview(folder, result, names);
+  const auto sets = data_sets("names.pvd");
+  ASSERT_EQ(sets.size(), result.run->picture_states.size());
+  vtkPolyData *poly   = read(std::get<2>(sets[0]));
+  auto        *bodies = vtkStringArray::SafeDownCast(poly->GetPointData()->GetAbstractArray("body"));
+  ASSERT_NE(bodies, nullptr);
+  ASSERT_EQ(bodies->GetNumberOfValues(), poly->GetNumberOfPoints());
+  EXPECT_EQ(bodies->GetValue(0), "crank");
+  EXPECT_EQ(poly->GetNumberOfVerts(), poly->GetNumberOfPoints());
+  EXPECT_NE(poly->GetPointData()->GetArray("displacement [m]"), nullptr);
 }
 
 TEST_F(ParaviewFiles, TheMacroBeginsAtTheMainPeak)

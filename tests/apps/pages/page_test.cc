@@ -28,6 +28,32 @@ std::string inked(const std::string &canvas)
          canvas + ")";
 }
 
+/// A report with all that makes it long: signals of many kinds, warnings, stresses, a comparison.
+Result long_result()
+{
+  Result            result = with_stress(example_result(1000));
+  const std::size_t own    = result.run->columns.size();
+  for (int k = 0; k < 40; ++k)
+  {
+    result.run->columns.push_back("signal " + std::to_string(k));
+    result.run->units.push_back(k % 2 == 0 ? "N" : "m");
+    result.run->signals.push_back({result.run->columns.back(), result.run->units.back(), -1., 0., 1., 0., 0.});
+    result.warnings.push_back("warning " + std::to_string(k) + ": " + std::string(60, 'a') + " " +
+                              std::string(240, 'b'));
+  }
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < result.run->rows.size(); i += own)
+  {
+    rows.insert(rows.end(), result.run->rows.begin() + long(i), result.run->rows.begin() + long(i + own));
+    for (int k = 0; k < 40; ++k)
+      rows.push_back(std::pow(20., k % 4) * std::sin(50. * result.run->rows[i]));
+  }
+  result.run->rows = rows;
+  for (int k = 0; k < 6; ++k) // many answers
+    result.answers.push_back(compared_run_answer(compared_run(*result.run, "other", *result.run)));
+  return result;
+}
+
 constexpr const char *windows = "gestell.charts.filter(c => c.data.link === 'time').map(c => c.graph.xAxisRange())";
 
 } // namespace
@@ -212,4 +238,86 @@ TEST(FacesPage, ChoosesTheFaceUnderThePointerAndKeepsAllFacesOfAFineMesh)
     EXPECT_GT(
         page.value(inked("document.querySelectorAll('.sides canvas')[" + std::to_string(side) + "]")).get<double>(),
         0.05);
+}
+
+/// A screen is 1080 pixels high.  Whatever a report has, its answers are open and the others are one click away.
+TEST(Page, OfALongReportIsEightScreensWithTheRestFolded)
+{
+  GESTELL_NEEDS_BROWSER();
+  const tests::Folder folder("page_screens");
+  const Report        report = make_report(long_result());
+  Browser             page(written(folder, report));
+  page.resize(1400, 1080);
+  tests::seconds_to_the_machine(page);
+  EXPECT_LE(page.value("document.documentElement.scrollHeight").get<double>(), 8. * 1080.);
+  EXPECT_GE(report.charts.size(), 15u);
+  // A warning takes a line until it is opened.
+  const auto height = [&](const std::string &of)
+  { return page.value(of + ".getBoundingClientRect().height").get<double>(); };
+  const std::string warning = "document.querySelector('.warnings details.line')", line = warning + ".firstChild";
+  const double      closed = height(line);
+  EXPECT_LT(closed, 2. * 16.);
+  page.value(warning + ".open = true");
+  EXPECT_GT(height(line), 2. * closed);
+  EXPECT_GE(page.value("document.querySelectorAll('.warnings li').length").get<int>(), 41) << "none is left out";
+  EXPECT_TRUE(page.errors().empty()) << tests::texts(page.errors());
+}
+
+/// A link of the contents opens its section, whose charts have their width; for print all are open.
+TEST(Page, OpensWhatIsFoldedByALinkAndForPrint)
+{
+  GESTELL_NEEDS_BROWSER();
+  const tests::Folder folder("page_folded");
+  Browser             page(written(folder, make_report(example_result(4500))));
+  tests::seconds_to_the_machine(page);
+  const std::string energy = "document.querySelector('#energy details')";
+  EXPECT_EQ(page.value(energy + ".open"), false);
+  page.value(
+      "new Promise(done => { document.querySelector('nav a[href=\"#energy\"]').click(); setTimeout(done, 200); })");
+  EXPECT_EQ(page.value(energy + ".open"), true);
+  EXPECT_GT(page.value("document.querySelector('#energy .plot canvas').getBoundingClientRect().width").get<double>(),
+            600.);
+  const std::string closed = "document.querySelectorAll('details:not([open])').length";
+  const int         n      = page.value(closed).get<int>();
+  EXPECT_GT(n, 1);
+  page.value("window.dispatchEvent(new Event('beforeprint'))");
+  EXPECT_EQ(page.value(closed), 0);
+  page.value("window.dispatchEvent(new Event('afterprint'))");
+  EXPECT_EQ(page.value(closed).get<int>(), n);
+}
+
+/// As wide as a telephone: the page does not scroll sideways, folded or not; tables and charts do so in themselves.
+TEST(Page, FitsANarrowScreen)
+{
+  GESTELL_NEEDS_BROWSER();
+  const tests::Folder folder("page_narrow");
+  Browser             page(written(folder, make_report(long_result())));
+  page.resize(420, 900);
+  tests::seconds_to_the_machine(page);
+  const std::string width = "document.documentElement.scrollWidth";
+  EXPECT_LE(page.value(width).get<int>(), 420);
+  page.value("document.querySelectorAll('details').forEach(e => { e.open = true; })");
+  EXPECT_LE(page.value(width).get<int>(), 420);
+}
+
+/// One entry for the halves of a bore, and one for all coaxial bores.
+TEST(FacesPage, OffersTheWholeBoreOfAFace)
+{
+  GESTELL_NEEDS_BROWSER();
+  const tests::Folder  folder("page_bores");
+  coupling::MeshReport report = chequered(2, 1);
+  report.surfaces[0].groups   = {{"this bore", {1, 2}, "cylinder = 1\n"}, {"all bores", {1, 2, 4}, "faces = 3\n"}};
+  folder.file("page.html", faces_page(report, "plate.step", "0"));
+  Browser page(folder / "page.html");
+  page.value("document.querySelector('#faces tr[data-f=\"0\"]').click()");
+  const std::string buttons = "[...document.querySelectorAll('#choices button')]";
+  EXPECT_EQ(page.value(buttons + ".map(b => b.textContent)"),
+            (nlohmann::json{"this face alone", "all 2 faces of this bore: 1, 2", "all 3 faces of all bores: 1, 2, 4"}));
+  page.value(buttons + "[1].click()");
+  EXPECT_EQ(page.value("document.getElementById('entry').textContent"), "[frame.surface.\"bore 1\"]\ncylinder = 1\n");
+  EXPECT_EQ(page.value("document.querySelectorAll('#faces tr.chosen').length"), 2);
+  page.value("document.querySelector('#faces tr[data-f=\"2\"]').click()"); // a plane
+  EXPECT_EQ(page.value(buttons + ".length"), 0);
+  EXPECT_EQ(page.value("document.querySelectorAll('#faces tr.chosen').length"), 1);
+  EXPECT_TRUE(page.errors().empty()) << tests::texts(page.errors());
 }

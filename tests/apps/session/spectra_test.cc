@@ -1,4 +1,6 @@
 #include "apps/analysis/spectra/spectra.h"
+#include "apps/output/report/section.h"
+#include "apps/output/values/result.h"
 #include "tests/support/test.h"
 
 using namespace gestell;
@@ -131,4 +133,20 @@ TEST(Spectra, OfAShortHistoryAreNone)
   run.rows    = {0., 1., 1., 2.};
   EXPECT_FALSE(spectra(run, run.from).has_value());
   EXPECT_FALSE(spectra(coupling::RunResult(), 0.).has_value());
+}
+
+/// 1 N at line 10 and `second` at line 60: 99 % of the power end at the first or at the second.
+TEST(Spectra, AreDrawnUpTo99PercentOfTheirPower)
+{
+  for (const auto &[second, end] : {std::pair(0.1, 10.), {0.101, 60.}})
+  {
+    RunSpectra found;
+    found.spectra = Spectra{0., 2., 400, 0.5, 5e-3, 100., {{"F", "N", std::vector<double>(201, 0.)}}};
+    found.spectra->signals[0].amplitudes[10] = 1.;
+    found.spectra->signals[0].amplitudes[60] = second;
+    const Section section                    = spectrum_section(Result(), found);
+    const auto   &drawing                    = std::get<Section::Drawing>(section.parts.back());
+    EXPECT_EQ(drawing.chart.x.end, 0.5 * end);
+    EXPECT_NE(drawing.chart.note.find("99 % of the power"), std::string::npos) << drawing.chart.note;
+  }
 }

@@ -77,7 +77,7 @@ TEST(StudyReport, OfAllThatAStudyFindsHasEverySectionAndNoReferenceOutsideIt)
 {
   const StudyReport report = make_study_report(complete_findings());
 
-  for (const std::string section : {"optimum", "effects", "front", "surfaces", "robust", "scatter", "runs"})
+  for (const std::string section : {"optimum", "over", "effects", "front", "surfaces", "robust", "scatter", "runs"})
   {
     EXPECT_THAT(report.html, HasSubstr("<section id=\"" + section + "\""));
     EXPECT_THAT(report.html, HasSubstr("<a href=\"#" + section + "\""));
@@ -88,7 +88,10 @@ TEST(StudyReport, OfAllThatAStudyFindsHasEverySectionAndNoReferenceOutsideIt)
   EXPECT_THAT(report.html, HasSubstr("No run has verified this point."));
   EXPECT_THAT(report.html, Not(HasSubstr("nan")));
   EXPECT_EQ(count_of(report.html, "http"), count_of(report.html, "http://www.w3.org/2000/svg"));
-  EXPECT_EQ(report.pictures.size(), 2u + 1u + 2u * 3u + 1u) << "effects; front; contour, slices, predicted; scatter";
+  EXPECT_EQ(report.pictures.size(), 2u + 2u + 1u + 2u * 3u + 1u)
+      << "over a variable; effects; front; contour, slices, predicted; scatter";
+  EXPECT_LT(report.html.find("class=\"keys\""), report.html.find("<section"));
+  EXPECT_THAT(report.html, HasSubstr("F at the optimum"));
 }
 
 TEST(StudyReport, LeavesOutWhatWasNotAskedFor)
@@ -175,4 +178,26 @@ TEST(StudyTables, QuoteNamesWithCommas)
   findings.surfaces[0].output.name = "peak, \"first\"";
 
   EXPECT_THAT(surface_csv(findings.surfaces), HasSubstr("\"peak, \"\"first\"\"\",1,"));
+}
+
+/// A dimension varied by files has its values on the axis, and a curve for each of the other variable.
+TEST(StudyReport, DrawsOutputsOverAVariedDimension)
+{
+  StudyFindings findings;
+  findings.name  = "walls";
+  findings.table = waiting_table({"list", Eigen::MatrixXd::Zero(4, 2)}, std::vector<StudyVariable>(2), {{"f", "Hz"}});
+  findings.table.variables[0]       = {"wall", "frame.cad", "mm", 15., 20., {15., 20.}};
+  findings.table.variables[1].name  = "method";
+  findings.table.variables[1].words = {"bdf", "newmark"};
+  findings.table.levels << 15., 0., 20., 0., 15., 1., 20., 1.;
+  findings.table.values << 30., 34., 31., 35.;
+  for (StudyRun &run : findings.table.runs)
+    run.status = RunStatus::done;
+  const StudyReport report = make_study_report(findings);
+  const auto        chart  = std::find_if(report.pictures.begin(), report.pictures.end(),
+                                          [](const auto &picture) { return picture.first == "over_f"; });
+  ASSERT_NE(chart, report.pictures.end());
+  for (const char *part : {"f [Hz] over wall [mm]", "method = bdf", "method = newmark", "run 2: wall = 20 mm"})
+    EXPECT_THAT(chart->second, HasSubstr(part));
+  EXPECT_THAT(report.html, HasSubstr("<strong>30 to 35 Hz</strong><span>f; smallest with wall = 15 mm, method = bdf"));
 }

@@ -100,6 +100,35 @@ TEST(StudyFile, WordsStandForThemselves)
   EXPECT_EQ(written.study().variables[0].text(written.points().levels(1, 0)), "newmark");
 }
 
+/// Files with the values that they stand for: numbers in the study, files in the scene.
+TEST(StudyFile, TakesADimensionThatIsVariedByFiles)
+{
+  const auto with = [](const std::string &levels, const std::string &design = "type = 'full factorial'")
+  {
+    return the_scene + "[variables.wall]\nkey = 'frame.cad'\nlevels = [" + levels + "]\n" + outputs + "[design]\n" +
+           design + "\n";
+  };
+  const std::string both = "{ file = 'b.step', value = '20 mm' }, { file = 'a.step', value = '15 mm' }";
+  const Written     written(with(both));
+  const auto        request = written.study().variables[0];
+  EXPECT_EQ(request.variable.unit, "mm");
+  EXPECT_EQ(request.variable.levels, (std::vector<double>{15., 20.}));
+  EXPECT_EQ(request.file(15.), "a.step");
+  EXPECT_EQ(request.file(20.), "b.step");
+  EXPECT_EQ(request.text(20.), "20 mm");
+  EXPECT_EQ(written.points().levels, (Eigen::MatrixXd(2, 1) << 15., 20.).finished());
+
+  const auto says = [](const std::string &text, const std::string &words)
+  { expect_refusal([&] { Written(text).points(); }, words); };
+  says(with(both, "type = 'Sobol'\nruns = 4"), "those of wall are files; take \"full factorial\" or \"list\"");
+  says(with(both, "type = 'list'\nrows = [['17 mm']]"), "variable wall: no file has the value 17 mm");
+  says(with("{ file = 'a.step' }, { file = 'b.step', value = 2 }"), "needs a file with its value in each");
+  says(with("{ file = 'a.step', value = 2 }, 'b.step'"), "needs a file with its value in each");
+  says(with("{ file = 'a.step', value = 2 }, { file = 'b.step', value = 2 }"),
+       "'a.step' and 'b.step' have the same value");
+  says(with("{ file = 'a.step', value = 'thick' }, { file = 'b.step', value = 2 }"), "needs a number");
+}
+
 TEST(StudyFile, WhatIsWrongIsToldWithItsPlace)
 {
   const auto says = [](const std::string &text, const std::string &words)

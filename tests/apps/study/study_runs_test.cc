@@ -175,6 +175,18 @@ TEST(StudyRuns, OfAFinishedStudyAreBegunAnewByRanksTogether)
   EXPECT_EQ(answered(small(folder), folder).table.n_done(), 9);
 }
 
+TEST(StudyRuns, HaveTheirUnitsInTheHead)
+{
+  const Folder folder("study_head");
+  answered(small(folder), folder);
+  const std::string text = read(folder.results() / "runs.csv");
+  EXPECT_EQ(text.substr(0, text.find('\n')), "run,status,c_P [kN/mm],s_cl [mm],F [N],rise [m],f2 [Hz],tool [s],tools,"
+                                             "frame [kg],cpu_s");
+  const RowsText rows(read_study(small(folder), {}));
+  EXPECT_TRUE(rows.is_head("run,status,c_P,s_cl,F,rise,f2,tool,tools,frame,cpu_s")) << "of an older version";
+  EXPECT_FALSE(rows.is_head("run,status,c_P,s_cl,F,rise,f2,tool,tools,cpu_s"));
+}
+
 TEST(StudyRuns, HaveTheUnitsOfTheirOwnStudy)
 {
   const Folder folder("study_units");
