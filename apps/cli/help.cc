@@ -42,10 +42,12 @@ Command help_command()
 {
   const auto own = std::make_shared<HelpCommandOptions>();
   return {"help",
-          "explain the keys of a scene",
-          {"gestell help element.clearance", "gestell help stiffness"},
+          "list commands by question, explain the keys of a scene",
+          {"gestell help element.clearance", "gestell help stiffness", "gestell help \"what force\""},
           CommandInput::none,
-          {CommandOption{"KEY", &own->topic, "table or key (default: the list of tables)"}.proposing(tables()),
+          {CommandOption{"KEY", &own->topic,
+                         "table, key or words of a question (default: the lists of questions and tables)"}
+               .proposing(tables()),
            {"--schema", &own->schema, "JSON schema of scenes, for editors, instead"},
            {"--renew", &own->docs, "write schema and tables of keys in this folder of documents anew, instead"}},
           [own](const CommonOptions &) { return help(*own); }};

@@ -23,6 +23,10 @@ class ComputationFailed(RuntimeError):
     result: Result | None
 
 
+class Function:
+    """An entry of a scene that is a function of Python."""
+
+
 class Peak:
     """Extremes of a signal with their times [s]."""
 

@@ -6,6 +6,7 @@
 #include "apps/output/text/write_file.h"
 #include "apps/reference/declared_tables.h"
 #include "apps/reference/json_schema.h"
+#include "apps/reference/questions.h"
 #include "apps/reference/study_tables.h"
 
 #include <algorithm>
@@ -116,9 +117,12 @@ std::string generated(const std::string &marker)
     return result_files_table();
   if (marker == "members: summary.json")
     return "| member | | unit | content |\n|---|---|---|---|\n" + summary_members(result_of_all_kinds());
+  if (marker == "questions")
+    return question_table();
   if (marker.rfind(keys, 0) != 0)
-    throw std::invalid_argument("the marker '" + marker +
-                                "' is not known; there are 'keys: TABLE', 'members: summary.json' and 'result files'");
+    throw std::invalid_argument(
+        "the marker '" + marker +
+        "' is not known; there are 'keys: TABLE', 'members: summary.json', 'questions' and 'result files'");
   return key_tables(marker.substr(keys.size()));
 }
 
@@ -143,7 +147,8 @@ std::string renewed(const std::string &document)
 void renew_reference(const std::string &docs)
 {
   const std::filesystem::path        folder = docs;
-  std::vector<std::filesystem::path> documents{folder / "scene.md", folder / "results.md", folder / "study.md"};
+  std::vector<std::filesystem::path> documents{folder / "scene.md", folder / "results.md", folder / "study.md",
+                                               folder / "commands.md"};
   for (const auto &entry : std::filesystem::directory_iterator(folder / "scene"))
     documents.push_back(entry.path());
   for (const auto &document : documents)
