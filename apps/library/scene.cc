@@ -3,6 +3,7 @@
 #include "apps/analysis/analyses.h"
 #include "apps/analysis/result_folder.h"
 #include "apps/output/folder_lock.h"
+#include "apps/scene/file/extending_scene.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"

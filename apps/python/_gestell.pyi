@@ -24,7 +24,7 @@ class ComputationFailed(RuntimeError):
 
 
 class Function:
-    """An entry of a scene that is a function of Python."""
+    """A function of Python as the value of a scene key."""
 
 
 class Peak:

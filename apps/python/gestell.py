@@ -130,7 +130,7 @@ class Scene:
         if callable(entries.get("force")):
             type, events = type or "formula force", list(events)
             entries["force"] = _gestell.Function.law({"force": entries["force"], **law}, list(state), events)
-        elif state or events or any(law.values()):
+        elif len(state) or len(events) or any(law.values()):
             raise InputError(f"element '{name}': derivative, state and events belong to a force that is a function; give force=f")
         return self.add(f"element.{_written(name)}", **({"type": type} if type else {}), **entries)
 

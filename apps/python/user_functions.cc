@@ -49,17 +49,15 @@ void take_numbers(const py::object &result, double *y, int n_y)
 {
   const auto refuse = [&](const std::string &needed)
   { throw std::runtime_error("returned " + py::repr(result).cast<std::string>() + "; needs " + needed); };
-  if (n_y == 1 && !PySequence_Check(result.ptr()))
+  if (n_y == 1) // also of NumPy, an array without dimensions
   {
     y[0] = PyFloat_AsDouble(result.ptr());
-    if (PyErr_Occurred())
-    {
-      PyErr_Clear();
-      refuse("a number");
-    }
-    return;
+    if (!PyErr_Occurred())
+      return;
+    PyErr_Clear();
+    refuse("a number");
   }
-  const std::string needed = std::to_string(n_y) + (n_y == 1 ? " number" : " numbers");
+  const std::string needed = std::to_string(n_y) + " numbers";
   if (!PySequence_Check(result.ptr()) || PySequence_Size(result.ptr()) != n_y)
   {
     PyErr_Clear();
@@ -158,7 +156,7 @@ Entry signal_entry(const py::object &function, const std::vector<std::string> &o
 
 void bind_user_functions(py::module_ &module)
 {
-  py::class_<Entry>(module, "Function", "An entry of a scene that is a function of Python.")
+  py::class_<Entry>(module, "Function", "A function of Python as the value of a scene key.")
       .def_static("law", &law_entry, "functions"_a, "state"_a, "events"_a)
       .def_static("signal", &signal_entry, "function"_a, "of"_a, "unit"_a)
       .def("__repr__", [](const Entry &entry) { return entry.value->mark; });

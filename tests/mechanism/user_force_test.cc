@@ -116,7 +116,7 @@ TEST(UserForce, HasNoValueAnyMoreOnceAFunctionHasThrown)
   EXPECT_EQ(switched.fault(), "its function 'force' raised");
 }
 
-TEST(UserForce, ThatIsNoNumberMayHaveOneElsewhere)
+TEST(UserForce, MayBeUndefinedAtSomePoints)
 {
   UserLaw law;
   law.force = [](Numbers x, Numbers, double *y, int) { y[0] = std::sqrt(x.begin[1]); };

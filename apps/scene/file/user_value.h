@@ -8,7 +8,7 @@
 namespace gestell::apps
 {
 
-/// An entry of a scene that is a function of the calling program (Python, C++), which no file can hold.
+/// A function of the calling program (Python, C++) as the value of a scene key, which no file can hold.
 struct UserValue
 {
   std::string                                  mark;     ///< for messages and files: "<function press.blanking>"

@@ -51,7 +51,7 @@ TEST_P(Named, StartsMotionsAndSignals)
 TEST_P(Named, TurnsInMeasuresJointsAndElements)
 {
   const auto &[type, name] = GetParam();
-  for (const std::string &part :
+  for (const std::string part :
        {"[measure.sum]\ntype = 'sum'\nterms = [{ of = '@' }, { of = 'other', factor = -2 }]\n",
         "[joint.drive]\ntype = 'prescribed motion'\non = '@'\nmotion = { speed = '60 1/min' }\n",
         "[element.spring]\ntype = 'spring-damper'\nfrom = '@'\nto = 'other'\nstiffness = '3 N m/rad'\n",
