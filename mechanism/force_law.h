@@ -34,9 +34,6 @@ public:
   /// Its growth [W] with the motion inside a branch: d stored_energy/du . u'.
   virtual double stored_power(const LocalMotion &, const double *history) const;
 
-  /// Why the law has lost its values for good, of a function of the calling program; empty: it has them.
-  virtual std::string fault() const { return {}; }
-
 protected:
   /// -p of an element of one measure: the force against its motion, the force signal of most elements.
   double resistance(const LocalMotion &motion, const double *history) const;

@@ -65,8 +65,6 @@ public:
   double stored_power(const LocalMotion &motion, const double *history) const override;
   Work   work() const override { return law_->work(); }
 
-  std::string fault() const override { return law_->fault(); }
-
   std::vector<Guard> guards(const double *history) const override;
   int                n_guards(const double *history) const override;
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;

@@ -61,8 +61,6 @@ public:
   double stored_power(const LocalMotion &motion, const double *history) const override;
   Work   work() const override { return law_->work(); }
 
-  std::string fault() const override { return law_->fault(); }
-
   const Branches *branches() const override { return branches_ || function().n_guards() > 0 ? this : nullptr; }
   /// history: that of the law, then that of the position function.
   int                n_history() const override { return n_of_law_ + function().n_history(); }

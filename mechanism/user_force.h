@@ -49,7 +49,7 @@ public:
     }
   }
 
-  std::string fault() const override;
+  std::string fault() const; ///< why its laws have lost their values for good; empty: they have them
 
   void engaged(const double *u, double *K, double *D) const override;
   bool stiffens() const override { return true; } ///< possibly; a function is arbitrary

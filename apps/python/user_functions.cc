@@ -55,9 +55,8 @@ void take_numbers(const py::object &result, double *y, int n_y)
     if (!PyErr_Occurred())
       return;
     PyErr_Clear();
-    refuse("a number");
   }
-  const std::string needed = std::to_string(n_y) + " numbers";
+  const std::string needed = n_y == 1 ? "a number" : std::to_string(n_y) + " numbers";
   if (!PySequence_Check(result.ptr()) || PySequence_Size(result.ptr()) != n_y)
   {
     PyErr_Clear();

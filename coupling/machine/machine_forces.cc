@@ -113,14 +113,6 @@ std::string MachineForces::element_of(int measure) const
   return LocalForces::element_of(measure);
 }
 
-std::string MachineForces::fault_of(int measure) const
-{
-  for (const auto &part : parts_.placed)
-    if (part.law && measure >= part.first_measure && measure < part.first_measure + part.n_measures)
-      return part.law->fault();
-  return {};
-}
-
 double MachineParts::held_rate(int measure) const
 {
   for (const HeldMeasure &h : held)

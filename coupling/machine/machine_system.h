@@ -51,7 +51,6 @@ public:
                       Eigen::VectorXd &blocks) const override;
   const std::vector<HeldMeasure> &held() const override;
   std::string                     element_of(int measure) const override;
-  std::string                     fault_of(int measure) const override;
   bool                            need_multipliers() const override;
 
 private:

@@ -1,7 +1,6 @@
 #include "mechanism/user_force.h"
 
 #include "mechanism/elements/cubic_spring.h"
-#include "mechanism/switched_element.h"
 #include "tests/support/element_probe.h"
 #include "tests/support/test.h"
 
@@ -107,13 +106,12 @@ TEST(UserForce, HasNoValueAnyMoreOnceAFunctionHasThrown)
     if (throws)
       throw std::runtime_error("raised");
   };
-  const auto            own = std::make_shared<UserForce>(law);
-  const SwitchedElement switched(own, SwitchedElement::Begin::on);
-  EXPECT_EQ(switched.fault(), "");
-  EXPECT_TRUE(std::isnan(force(*own, probe1(0., 0.), nullptr)[0]));
+  const UserForce own(law);
+  EXPECT_EQ(own.fault(), "");
+  EXPECT_TRUE(std::isnan(force(own, probe1(0., 0.), nullptr)[0]));
   throws = false;
-  EXPECT_TRUE(std::isnan(force(*own, probe1(0., 0.), nullptr)[0]));
-  EXPECT_EQ(switched.fault(), "its function 'force' raised");
+  EXPECT_TRUE(std::isnan(force(own, probe1(0., 0.), nullptr)[0]));
+  EXPECT_EQ(own.fault(), "its function 'force' raised");
 }
 
 TEST(UserForce, MayBeUndefinedAtSomePoints)

@@ -26,8 +26,6 @@ LawWithoutValue law_without_value(const SecondOrderSystem &system, const LocalSt
           << (value ? "an infinite slope" : "no finite value") << " at t = " << state.t;
     for (int j = 0; j < n; ++j)
       words << ", u = " << state.u[block.first_measure + j] << ", u' = " << state.v[block.first_measure + j];
-    if (const std::string fault = forces.fault_of(block.first_measure); !fault.empty())
-      return {forces.element_of(block.first_measure), words.str() + " (SI units): " + fault};
     words
         << " (SI units); keep its arguments in the range of the law, by if or max in a formula, or end the run before";
     return {forces.element_of(block.first_measure), words.str()};

@@ -67,8 +67,6 @@ public:
   virtual const std::vector<HeldMeasure> &held() const;
   /// Name in the scene of the element that owns a measure, for messages.  Default: "an element".
   virtual std::string element_of(int) const { return "an element"; }
-  /// Why the law of that element has lost its values for good; empty: it has them.
-  virtual std::string fault_of(int) const { return {}; }
   /// Whether forces depend on the multipliers of joints (friction in them), which depend on forces: a start iterates.
   virtual bool need_multipliers() const { return false; }
 };
