@@ -79,8 +79,8 @@ void UserForce::engaged(const double *u, double *K, double *D) const
   const double x[] = {0., *u, 0.};
   double       slopes[2];
   slopes_at(x, functions_.state.data(), slopes);
-  *K = -slopes[0];
-  *D = -slopes[1];
+  *K = std::isfinite(slopes[0]) ? -slopes[0] : 0.; // a law without a value ends a run at its start, with a message
+  *D = std::isfinite(slopes[1]) ? -slopes[1] : 0.;
 }
 
 void UserForce::start(const LocalMotion &, double *history) const

@@ -128,6 +128,7 @@ void raise_failure(const std::shared_ptr<PythonResult> &result, const SceneNode 
 template <typename Compute>
 auto interruptibly(const SceneNode &root, const Compute &compute, py::object progress = py::none())
 {
+  take_raised(root); // of earlier computations
   const Interruptible interruptible;
   CallbackProgress    reported(std::move(progress), interruptible.requested());
   const auto          with_others = [&]
@@ -157,14 +158,17 @@ auto interruptibly(const SceneNode &root, const Compute &compute, py::object pro
       throw;
   }
   reported.raise();
+  std::shared_ptr<PythonResult> of_failure;
   if constexpr (std::is_same_v<decltype(result), std::optional<std::shared_ptr<PythonResult>>>)
     if (result)
-      raise_failure(*result, root);
+      raise_failure(of_failure = *result, root);
   if (interruptible.requested())
   {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
     throw py::error_already_set();
   }
+  if (const py::object cause = take_raised(root); !cause.is_none())
+    raise_with(computation_failed("a function of the scene raised an exception"), of_failure, cause);
   return std::move(*result);
 }
 
