@@ -29,8 +29,8 @@ std::string UserForce::fault() const
 void UserForce::call(const char *role, const UserFunction &function, Numbers x, const double *state, double *y, int n_y,
                      Numbered numbered) const
 {
-  std::string fault = this->fault();
-  if (fault.empty())
+  std::string fault;
+  if (!lost_)
     try
     {
       function(x, {state, n_history()}, y, n_y);
@@ -42,10 +42,12 @@ void UserForce::call(const char *role, const UserFunction &function, Numbers x, 
     {
       fault = raised.what();
     }
-  const std::lock_guard lock(mutex_);
-  if (fault_.empty())
-    fault_ = std::string("its function '") + role + "' " + fault;
   std::fill_n(y, n_y, std::numeric_limits<double>::quiet_NaN());
+  if (lost_)
+    return;
+  const std::lock_guard lock(mutex_);
+  fault_ = std::string("its function '") + role + "' " + fault;
+  lost_  = numbered == Numbered::yes;
 }
 
 double UserForce::force_at(const double *x, const double *state) const

@@ -3,6 +3,7 @@
 #include "mechanism/differentiable_element.h"
 #include "mechanism/functions/user_function.h"
 
+#include <atomic>
 #include <mutex>
 #include <string>
 
@@ -16,8 +17,9 @@ namespace gestell::mechanism
  * root of the rounding of double precision, where truncation and rounding are of one size.  Its relative error is (6e-6
  * |x| / l)^2 / 6 for a law that bends over the length l, plus 1e-10.  It costs four more calls of `force` per tangent.
  *
- * A function that throws, or a state or event value that is not a number, is a fault(): from then on the law has no
- * value, which ends a run.  A force that is not a number is none yet: a shorter step may avoid it.
+ * Where a function throws, the law has no value, which a shorter step may avoid, as with a force that is not a number;
+ * fault() has the reason.  A state or an event value without a number is lost for good: then the law has no value any
+ * more, which ends a run.
  *
  * As FormulaForce its work is input; as structure it has K = -dF/du and D = -dF/du' at the given u, at t = 0, at rest,
  * in the state of the start.  Functions may be called by several threads at once.
@@ -49,7 +51,7 @@ public:
     }
   }
 
-  std::string fault() const; ///< why its laws have lost their values for good; empty: they have them
+  std::string fault() const; ///< why the last failed function did so; empty: none failed
 
   void engaged(const double *u, double *K, double *D) const override;
   bool stiffens() const override { return true; } ///< possibly; a function is arbitrary
@@ -80,10 +82,11 @@ private:
   void   call(const char *role, const UserFunction &function, Numbers x, const double *state, double *y, int n_y,
               Numbered numbered) const;
 
-  UserLaw             functions_;
-  Along               along_;
-  mutable std::mutex  mutex_;
-  mutable std::string fault_; ///< guarded by mutex_
+  UserLaw                   functions_;
+  Along                     along_;
+  mutable std::mutex        mutex_;
+  mutable std::string       fault_; ///< guarded by mutex_
+  mutable std::atomic<bool> lost_{false};
 };
 
 } // namespace gestell::mechanism

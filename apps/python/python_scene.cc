@@ -113,6 +113,13 @@ py::object computation_failed(const std::string &why)
   return py::module_::import("_gestell").attr("ComputationFailed")(why);
 }
 
+/// Raises a failure that is caused by what a function of the scene raised, if one did.
+void raise_cause(const std::string &why, const SceneNode &root, const std::shared_ptr<PythonResult> &result)
+{
+  if (const py::object cause = take_raised(root); !cause.is_none())
+    raise_with(computation_failed(why + "\n" + traceback_text(cause)), result, cause);
+}
+
 /// Why a run is none, as an exception that has what was computed; caused by what a function of the scene raised.
 void raise_failure(const std::shared_ptr<PythonResult> &result, const SceneNode &root)
 {
@@ -141,21 +148,18 @@ auto interruptibly(const SceneNode &root, const Compute &compute, py::object pro
   {
     result.emplace(with_others());
   }
-  catch (const std::runtime_error &failure)
+  catch (const py::error_already_set &)
+  {
+    throw;
+  }
+  catch (const std::exception &failure)
   {
     reported.raise();
     if (!interruptible.requested())
     {
-      if (const py::object cause = take_raised(root); !cause.is_none())
-        raise_with(computation_failed(failure.what()), nullptr, cause);
+      raise_cause(failure.what(), root, nullptr);
       throw;
     }
-  }
-  catch (const std::exception &)
-  {
-    reported.raise();
-    if (!interruptible.requested())
-      throw;
   }
   reported.raise();
   std::shared_ptr<PythonResult> of_failure;
@@ -167,8 +171,8 @@ auto interruptibly(const SceneNode &root, const Compute &compute, py::object pro
     PyErr_SetNone(PyExc_KeyboardInterrupt);
     throw py::error_already_set();
   }
-  if (const py::object cause = take_raised(root); !cause.is_none())
-    raise_with(computation_failed("a function of the scene raised an exception"), of_failure, cause);
+  if (!of_failure || !of_failure->result().run)
+    raise_cause("a function of the scene failed", root, of_failure);
   return std::move(*result);
 }
 

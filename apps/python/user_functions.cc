@@ -34,17 +34,6 @@ std::shared_ptr<Kept> kept(py::object functions)
           }};
 }
 
-/// "raised" with the traceback, as Python prints it.
-std::string traceback_text(const py::error_already_set &error)
-{
-  const py::object lines =
-      py::module_::import("traceback").attr("format_exception")(error.type(), error.value(), error.trace());
-  auto text = py::str("").attr("join")(lines).cast<std::string>();
-  while (!text.empty() && text.back() == '\n')
-    text.pop_back();
-  return "raised\n" + text;
-}
-
 void take_numbers(const py::object &result, double *y, int n_y)
 {
   const auto refuse = [&](const std::string &needed)
@@ -107,7 +96,12 @@ mechanism::UserFunction function_of(const std::shared_ptr<Kept> &own, const char
       own->raised = error.value();
       if (error.trace())
         own->raised.attr("__traceback__") = error.trace();
-      throw std::runtime_error(traceback_text(error));
+      throw std::runtime_error("raised\n" + traceback_text(own->raised));
+    }
+    catch (const std::runtime_error &wrong)
+    {
+      own->raised = py::reinterpret_borrow<py::object>(PyExc_TypeError)("the function " + std::string(wrong.what()));
+      throw;
     }
   };
 }
@@ -174,6 +168,16 @@ bool fill_function_node(py::handle value, apps::SceneNode &node)
 py::object function_object(const apps::SceneNode &node)
 {
   return py::cast(Entry{std::const_pointer_cast<apps::UserValue>(node.user)});
+}
+
+std::string traceback_text(const py::object &error)
+{
+  const py::object lines = py::module_::import("traceback")
+                               .attr("format_exception")(py::type::of(error), error, error.attr("__traceback__"));
+  auto text = py::str("").attr("join")(lines).cast<std::string>();
+  while (!text.empty() && text.back() == '\n')
+    text.pop_back();
+  return text;
 }
 
 py::object take_raised(const apps::SceneNode &root)

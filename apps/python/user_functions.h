@@ -4,6 +4,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 namespace gestell::python
 {
 
@@ -18,6 +20,9 @@ void bind_user_functions(pybind11::module_ &module);
 bool fill_function_node(pybind11::handle value, apps::SceneNode &node);
 /// The Python object of a function node.
 pybind11::object function_object(const apps::SceneNode &node);
+
+/// The traceback of an exception, as Python prints it.
+std::string traceback_text(const pybind11::object &error);
 
 /// The last exception of the scene's functions since the call before; None: there was none.  Needs the lock.
 pybind11::object take_raised(const apps::SceneNode &root);

@@ -96,22 +96,34 @@ TEST(UserForce, HasTheStateAndEventsOfItsFunctions)
   EXPECT_DOUBLE_EQ(force(own, probe1(0., 0.), history.data())[0], 11.3);
 }
 
-TEST(UserForce, HasNoValueAnyMoreOnceAFunctionHasThrown)
+TEST(UserForce, HasNoValueWhereAFunctionThrows)
 {
   UserLaw law;
-  bool    throws = true;
-  law.force      = [&](Numbers, Numbers, double *y, int)
+  law.force = [](Numbers x, Numbers, double *y, int)
   {
     y[0] = 3.;
-    if (throws)
+    if (x.begin[1] > 1.)
       throw std::runtime_error("raised");
   };
   const UserForce own(law);
   EXPECT_EQ(own.fault(), "");
-  EXPECT_TRUE(std::isnan(force(own, probe1(0., 0.), nullptr)[0]));
-  throws = false;
-  EXPECT_TRUE(std::isnan(force(own, probe1(0., 0.), nullptr)[0]));
+  EXPECT_TRUE(std::isnan(force(own, probe1(2., 0.), nullptr)[0]));
+  EXPECT_EQ(force(own, probe1(0., 0.), nullptr)[0], 3.);
   EXPECT_EQ(own.fault(), "its function 'force' raised");
+}
+
+TEST(UserForce, HasNoValueAnyMoreOnceItsStateIsLost)
+{
+  UserLaw law;
+  law.state      = {0.};
+  law.force      = [](Numbers, Numbers, double *y, int) { y[0] = 3.; };
+  law.after_step = [](Numbers, Numbers, double *, int) { throw std::runtime_error("raised"); };
+  const UserForce own(law);
+  double          state = 0.;
+  EXPECT_EQ(force(own, probe1(0., 0.), &state)[0], 3.);
+  own.accept(probe1(0., 0.).motion(), &state);
+  EXPECT_TRUE(std::isnan(force(own, probe1(0., 0.), &state)[0]));
+  EXPECT_EQ(own.fault(), "its function 'after_step' raised");
 }
 
 TEST(UserForce, MayBeUndefinedAtSomePoints)

@@ -55,10 +55,10 @@ class Laws(unittest.TestCase):
         np.testing.assert_allclose(differences["F_P"], exact["F_P"], rtol=0., atol=1e-9 * abs(exact["F_P"]).max())
 
     def test_are_known_to_modes_periodic_solutions_and_sensitivities(self):
-        own, formula = (oscillator(**law).parameters(m="10 kg").set("body.mass.mass", "m")
+        own, formula = (oscillator(**law).parameters(M="10 kg").set("body.mass.mass", "M")
                         for law in ({"force": cubic, "derivative": slopes}, {"type": "formula force", "force": FORMULA}))
         np.testing.assert_allclose(own.modes().frequencies_hz, formula.modes().frequencies_hz, rtol=1e-12)
-        by_mass = [scene.run(sensitivities="parameters.m").sensitivities["x.min"]["parameters.m"] for scene in (own, formula)]
+        by_mass = [scene.run(sensitivities="parameters.M").sensitivities["x.min"]["parameters.M"] for scene in (own, formula)]
         self.assertAlmostEqual(by_mass[0] / by_mass[1], 1., delta=1e-5)
         driven = [scene.element("load", "force", from_="mass", direction=[1, 0, 0], harmonics=[{"amplitude": "3 N", "frequency": "3 Hz"}])
                   .add("run", method="exact").periodic("shooting")[0] for scene in (own, formula)]
