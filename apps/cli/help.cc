@@ -43,10 +43,12 @@ Command help_command()
 {
   const auto own = std::make_shared<HelpCommandOptions>();
   return {"help",
-          "explain the keys of scenes and studies",
-          {"gestell help element.clearance", "gestell help stiffness"},
+          "list commands by question, explain the keys of scenes and studies",
+          {"gestell help element.clearance", "gestell help stiffness", "gestell help \"what force\""},
           CommandInput::none,
-          {CommandOption{"KEY", &own->topic, "table or key (default: the list of tables)"}.proposing(tables()),
+          {CommandOption{"KEY", &own->topic,
+                         "table, key or words of a question (default: the lists of questions and tables)"}
+               .proposing(tables()),
            {"--schema", &own->schema, "only print the JSON schema of scenes, for editors"},
            {"--renew", &own->docs, "only regenerate schemas, key tables and options in this folder of documents"}},
           [own](const CommonOptions &) { return help(*own); }};

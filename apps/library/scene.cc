@@ -3,8 +3,11 @@
 #include "apps/analysis/analyses.h"
 #include "apps/analysis/result_folder.h"
 #include "apps/output/folder_lock.h"
+#include "apps/scene/file/extending_scene.h"
 #include "apps/scene/file/scene_file.h"
+#include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
+#include "apps/scene/file/user_value.h"
 #include "apps/session/checkpoint/input_files.h"
 #include "apps/session/session.h"
 #include "fem/values/nearest_name.h"
@@ -111,6 +114,32 @@ Scene &Scene::set(const std::string &key, double value)
   if (text.find_first_of(".en") == std::string::npos)
     text += ".0";
   return set(key, text);
+}
+
+Scene &Scene::set(const std::string &key, const Law &law)
+{
+  using mechanism::Numbers;
+  auto functions = std::make_shared<mechanism::UserLaw>();
+  if (law.force)
+    functions->force = [f = law.force](Numbers x, Numbers, double *y, int)
+    { y[0] = f(x.begin[0], x.begin[1], x.begin[2]); };
+  if (law.derivative)
+    functions->derivative = [f = law.derivative](Numbers x, Numbers, double *y, int)
+    { std::copy_n(f(x.begin[0], x.begin[1], x.begin[2]).begin(), 2, y); };
+  auto value  = std::make_shared<apps::UserValue>();
+  value->mark = "<function of C++>";
+  value->law  = functions;
+  apps::SceneNode node;
+  node.type  = apps::SceneNode::Type::function;
+  node.place = {"scene[\"" + key + "\"]", 0};
+  node.text  = value->mark;
+  node.user  = value;
+
+  auto changed = std::make_shared<Parts>(*parts_);
+  apps::apply_override(changed->root, key, node);
+  changed->changes.push_back(key + "=" + apps::written_value(node));
+  parts_ = std::move(changed);
+  return *this;
 }
 
 Run Scene::run() const

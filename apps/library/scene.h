@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -58,6 +60,14 @@ struct Modes
   std::vector<std::vector<double>> shapes; ///< by mode, then by coordinate; mass normalised
 };
 
+/// A force law of the calling program, F(t, u, v) [N or N m] of time, displacement or angle, and its rate.
+struct Law
+{
+  std::function<double(double t, double u, double v)> force;
+  /// dF/du and dF/dv; none: central differences, which cost four more calls of `force`
+  std::function<std::array<double, 2>(double t, double u, double v)> derivative{};
+};
+
 /**
  * A scene as data: keys are set by their path, then the scene is computed.  Frames are reduced once and cached.
  *
@@ -79,6 +89,8 @@ public:
   /// The value as for `--set`: a number in SI, or a string with a unit.
   Scene &set(const std::string &key, const std::string &value);
   Scene &set(const std::string &key, double value);
+  /// The `force` of a "formula force": "element.buffer.force".
+  Scene &set(const std::string &key, const Law &law);
 
   Run   run() const;
   Modes modes() const;

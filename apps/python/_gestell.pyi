@@ -23,6 +23,10 @@ class ComputationFailed(RuntimeError):
     result: Result | None
 
 
+class Function:
+    """A function of Python as the value of a scene key."""
+
+
 class Peak:
     """Extremes of a signal with their times [s]."""
 

@@ -115,9 +115,29 @@ class Scene:
         """Adds a joint: its name, its type and its entries, from_="crank"; returns the scene."""
         return self.add(f"joint.{_written(name)}", type=type, **entries)
 
-    def element(self, name: str, type: str, **entries) -> "Scene":
-        """Adds an element: its name, its type and its entries, from_="crank"; returns the scene."""
-        return self.add(f"element.{_written(name)}", type=type, **entries)
+    def element(self, name: str, type: str = "", derivative=None, state=(), events=(), event_values=None, at_event=None,
+                after_step=None, **entries) -> "Scene":
+        """Adds an element: its name, its type and its entries, from_="crank"; returns the scene.
+
+        force: of a "formula force" also a function F(t, u, v) in N or N m of time, displacement or angle u, and its rate.
+        derivative: function that returns dF/du and dF/dv; None: central differences, four more calls of `force` each.
+        state: numbers s at the start, for a law with memory; all its functions then take s, a tuple, as last argument.
+        events: names; event_values: function (t, u, v) that returns a number for each, which occurs as it rises through 0.
+        at_event: function (event, t, u, v, s) that returns the new s; after_step: function (t, u, v, s), likewise.
+        """
+        law = {"derivative": derivative, "event_values": event_values, "after_step": after_step,
+               "at_event": at_event and (lambda number, *motion: at_event(events[int(number)], *motion))}
+        if callable(entries.get("force")):
+            type, events = type or "formula force", list(events)
+            entries["force"] = _gestell.Function.law({"force": entries["force"], **law}, list(state), events)
+        elif len(state) or len(events) or any(law.values()):
+            raise InputError(f"element '{name}': derivative, state and events belong to a force that is a function; give force=f")
+        return self.add(f"element.{_written(name)}", **({"type": type} if type else {}), **entries)
+
+    def signal(self, name: str, function, of=(), unit="1") -> "Scene":
+        """Adds a signal that is a function of others, such as ["slide.velocity", "F_P"]; returns the scene."""
+        of = [of] if isinstance(of, str) else list(of)
+        return self.add("output.signals", **{name: _gestell.Function.signal(function, of, unit)})
 
     def watch(self, **signals) -> "Scene":
         """Adds signals that runs tell, x="mass.ux"; returns the scene."""

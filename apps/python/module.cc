@@ -12,6 +12,7 @@
 #include "apps/python/errors.h"
 #include "apps/python/python_frame.h"
 #include "apps/python/python_result.h"
+#include "apps/python/user_functions.h"
 #include "apps/session/checkpoint/input_files.h"
 #include "apps/version.h"
 
@@ -268,5 +269,6 @@ PYBIND11_MODULE(_gestell, module)
   bind_result(module);
   bind_frames(module);
   bind_state_space(module);
+  bind_user_functions(module);
   bind_scene(module);
 }

@@ -6,6 +6,7 @@
 #include "apps/python/callback_progress.h"
 #include "apps/python/interruptible.h"
 #include "apps/python/scene_values.h"
+#include "apps/python/user_functions.h"
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/scene_summary.h"
 #include "apps/scene/file/extending_scene.h"
@@ -98,28 +99,43 @@ std::shared_ptr<const coupling::ReducedFrame> shared_frame(const Scene &scene, c
   return shelf->frame(scene, progress);
 }
 
-[[noreturn]] void raise_with(py::object error, const std::shared_ptr<PythonResult> &result)
+[[noreturn]] void raise_with(py::object error, const std::shared_ptr<PythonResult> &result, const py::object &cause)
 {
   error.attr("result") = result;
+  if (!cause.is_none())
+    error.attr("__cause__") = cause;
   PyErr_SetObject(reinterpret_cast<PyObject *>(Py_TYPE(error.ptr())), error.ptr());
   throw py::error_already_set();
 }
 
-/// Why a run is none, as an exception that has what was computed.
-void raise_failure(const std::shared_ptr<PythonResult> &result)
+py::object computation_failed(const std::string &why)
+{
+  return py::module_::import("_gestell").attr("ComputationFailed")(why);
+}
+
+/// Raises a failure that is caused by what a function of the scene raised, if one did.
+void raise_cause(const std::string &why, const SceneNode &root, const std::shared_ptr<PythonResult> &result)
+{
+  if (const py::object cause = take_raised(root); !cause.is_none())
+    raise_with(computation_failed(why + "\n" + traceback_text(cause)), result, cause);
+}
+
+/// Why a run is none, as an exception that has what was computed; caused by what a function of the scene raised.
+void raise_failure(const std::shared_ptr<PythonResult> &result, const SceneNode &root)
 {
   const auto &run = result->result().run;
   if (run && run->interrupted)
-    raise_with(py::reinterpret_borrow<py::object>(PyExc_KeyboardInterrupt)(), result);
+    raise_with(py::reinterpret_borrow<py::object>(PyExc_KeyboardInterrupt)(), result, py::none());
   if (run && !run->failure.empty())
-    raise_with(py::module_::import("_gestell").attr("ComputationFailed")(run->failure), result);
+    raise_with(computation_failed(run->failure), result, take_raised(root));
 }
 
 /// Computes without the lock of the interpreter: `compute` has a scene of its own, as others may change theirs.  Ctrl-C
 /// and what `progress` raises are obeyed at the latest when it is done, whatever came of it.
 template <typename Compute>
-auto interruptibly(const Compute &compute, py::object progress = py::none())
+auto interruptibly(const SceneNode &root, const Compute &compute, py::object progress = py::none())
 {
+  take_raised(root); // of earlier computations
   const Interruptible interruptible;
   CallbackProgress    reported(std::move(progress), interruptible.requested());
   const auto          with_others = [&]
@@ -132,21 +148,31 @@ auto interruptibly(const Compute &compute, py::object progress = py::none())
   {
     result.emplace(with_others());
   }
-  catch (const std::exception &)
+  catch (const py::error_already_set &)
+  {
+    throw;
+  }
+  catch (const std::exception &failure)
   {
     reported.raise();
     if (!interruptible.requested())
+    {
+      raise_cause(failure.what(), root, nullptr);
       throw;
+    }
   }
   reported.raise();
+  std::shared_ptr<PythonResult> of_failure;
   if constexpr (std::is_same_v<decltype(result), std::optional<std::shared_ptr<PythonResult>>>)
     if (result)
-      raise_failure(*result);
+      raise_failure(of_failure = *result, root);
   if (interruptible.requested())
   {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
     throw py::error_already_set();
   }
+  if (!of_failure || !of_failure->result().run)
+    raise_cause("a function of the scene failed", root, of_failure);
   return std::move(*result);
 }
 
@@ -285,6 +311,7 @@ Scene PythonScene::scene_with(const std::vector<std::string> &signals) const
 std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
 {
   return interruptibly(
+      variant_.root,
       [&, self = *this](const apps::Watch &watch)
       {
         Scene scene = choice.signals ? self.scene_with(*choice.signals) : self.scene();
@@ -300,6 +327,7 @@ std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
 std::shared_ptr<PythonResult> PythonScene::modes(const apps::OptionTexts &options, py::object progress) const
 {
   return interruptibly(
+      variant_.root,
       [&, self = *this](const apps::Watch &watch)
       {
         auto       session = self.session(self.scene(), watch);
@@ -320,6 +348,7 @@ std::shared_ptr<PythonResult> PythonScene::analyse(const std::string &name, cons
   apps::AnalysisOutcome      outcome  = apps::AnalysisOutcome::done;
   apps::set_options(*analysis, options);
   const auto result = interruptibly(
+      variant_.root,
       [&, self = *this](const apps::Watch &watch)
       {
         auto session = self.session(self.scene(), watch);
@@ -328,84 +357,87 @@ std::shared_ptr<PythonResult> PythonScene::analyse(const std::string &name, cons
       },
       std::move(progress));
   if (outcome == apps::AnalysisOutcome::interrupted)
-    raise_with(py::reinterpret_borrow<py::object>(PyExc_KeyboardInterrupt)(), result);
+    raise_with(py::reinterpret_borrow<py::object>(PyExc_KeyboardInterrupt)(), result, py::none());
   if (outcome == apps::AnalysisOutcome::failed)
-    raise_with(py::module_::import("_gestell").attr("ComputationFailed")(apps::failure_of(result->result())), result);
+    raise_with(computation_failed(apps::failure_of(result->result())), result, take_raised(variant_.root));
   return result;
 }
 
 std::shared_ptr<apps::StateSpaceModel> PythonScene::state_space(const apps::FrfOptions &options) const
 {
-  return interruptibly(
-      [&, self = *this](const apps::Watch &watch)
-      {
-        const auto session = self.session(self.scene(), watch);
-        return std::make_shared<apps::StateSpaceModel>(
-            apps::state_space_of(session->scene(), session->machine(), options));
-      });
+  return interruptibly(variant_.root,
+                       [&, self = *this](const apps::Watch &watch)
+                       {
+                         const auto session = self.session(self.scene(), watch);
+                         return std::make_shared<apps::StateSpaceModel>(
+                             apps::state_space_of(session->scene(), session->machine(), options));
+                       });
 }
 
 apps::StabilityStudy PythonScene::stability(double step) const
 {
-  return interruptibly(
-      [&, self = *this](const apps::Watch &watch)
-      {
-        const auto           session = self.session(self.scene(), watch);
-        apps::StabilityStudy study;
-        apps::lay_methods_over(session->scene(), session->machine(), step, apps::method_families(), study);
-        return study;
-      });
+  return interruptibly(variant_.root,
+                       [&, self = *this](const apps::Watch &watch)
+                       {
+                         const auto           session = self.session(self.scene(), watch);
+                         apps::StabilityStudy study;
+                         apps::lay_methods_over(session->scene(), session->machine(), step, apps::method_families(),
+                                                study);
+                         return study;
+                       });
 }
 
 std::pair<apps::SizeResult, PythonScene> PythonScene::size(const SizeChoice &choice) const
 {
-  return interruptibly(
-      [&, self = *this](const apps::Watch &watch)
-      {
-        const Scene scene = self.scene();
-        const auto  sized = [&](const apps::ModelVariant &model)
-        {
-          PythonScene other = self;
-          for (const auto &[key, value] : apps::sized_entries(scene, model))
-            other.variant_.set(key + "=" + value);
-          return other;
-        };
-        apps::SizeOptions options;
-        options.tolerance  = choice.tolerance;
-        options.max_cpu    = choice.max_cpu;
-        options.exhaustive = choice.exhaustive;
-        options.stop       = watch.interruption;
-        const auto found   = apps::size_search(scene, apps::budget_outputs(scene, choice.outputs), options);
-        return std::make_pair(found.result, sized(found.chosen));
-      });
+  return interruptibly(variant_.root,
+                       [&, self = *this](const apps::Watch &watch)
+                       {
+                         const Scene scene = self.scene();
+                         const auto  sized = [&](const apps::ModelVariant &model)
+                         {
+                           PythonScene other = self;
+                           for (const auto &[key, value] : apps::sized_entries(scene, model))
+                             other.variant_.set(key + "=" + value);
+                           return other;
+                         };
+                         apps::SizeOptions options;
+                         options.tolerance  = choice.tolerance;
+                         options.max_cpu    = choice.max_cpu;
+                         options.exhaustive = choice.exhaustive;
+                         options.stop       = watch.interruption;
+                         const auto found =
+                             apps::size_search(scene, apps::budget_outputs(scene, choice.outputs), options);
+                         return std::make_pair(found.result, sized(found.chosen));
+                       });
 }
 
 std::shared_ptr<PythonFullFrame> PythonScene::full_frame() const
 {
-  return interruptibly(
-      [&, self = *this](const apps::Watch &watch)
-      {
-        auto full = std::make_shared<PythonFullFrame>(
-            PythonFullFrame{assembled(self.scene(), apps::stoppable(watch.progress, watch.interruption))});
-        for (fem::SparseMatrix *A : {&full->frame.M, &full->frame.B, &full->frame.C})
-          A->makeCompressed();
-        return full;
-      });
+  return interruptibly(variant_.root,
+                       [&, self = *this](const apps::Watch &watch)
+                       {
+                         auto full = std::make_shared<PythonFullFrame>(PythonFullFrame{
+                             assembled(self.scene(), apps::stoppable(watch.progress, watch.interruption))});
+                         for (fem::SparseMatrix *A : {&full->frame.M, &full->frame.B, &full->frame.C})
+                           A->makeCompressed();
+                         return full;
+                       });
 }
 
 std::shared_ptr<PythonFrame> PythonScene::frame() const
 {
-  return interruptibly(
-      [&, self = *this](const apps::Watch &watch)
-      {
-        const Scene scene = self.scene();
-        auto        frame = shared_frame(scene, apps::stoppable(watch.progress, watch.interruption));
-        if (!frame)
-          throw std::invalid_argument(
-              scene.frame.place + ": the scene has no frame that is reduced; its matrices are M, B, C of [frame], or "
-                                  "reduction.method = \"craig-bampton\" reduces it");
-        return std::make_shared<PythonFrame>(std::move(frame));
-      });
+  return interruptibly(variant_.root,
+                       [&, self = *this](const apps::Watch &watch)
+                       {
+                         const Scene scene = self.scene();
+                         auto        frame = shared_frame(scene, apps::stoppable(watch.progress, watch.interruption));
+                         if (!frame)
+                           throw std::invalid_argument(
+                               scene.frame.place +
+                               ": the scene has no frame that is reduced; its matrices are M, B, C of [frame], or "
+                               "reduction.method = \"craig-bampton\" reduces it");
+                         return std::make_shared<PythonFrame>(std::move(frame));
+                       });
 }
 
 } // namespace gestell::python

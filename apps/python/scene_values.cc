@@ -1,5 +1,7 @@
 #include "apps/python/scene_values.h"
 
+#include "apps/python/user_functions.h"
+
 #include <cmath>
 
 namespace gestell::python
@@ -92,6 +94,8 @@ SceneNode node_of(py::handle value, const Place &place, const std::string &folde
            "dicts and lists lie more than " + std::to_string(deepest) + " deep in each other; does one hold itself?");
   if (py::isinstance<py::dict>(value))
     return table_node(node, key, py::reinterpret_borrow<py::dict>(value));
+  if (fill_function_node(value, node))
+    return node;
   if (py::isinstance<py::bool_>(value))
   {
     node.type    = Type::boolean;
@@ -120,6 +124,11 @@ SceneNode node_of(py::handle value, const Place &place, const std::string &folde
     return number_node(node, key, value);
   if (py::isinstance<py::sequence>(value))
     return array_node(node, key, value);
+  if (PyCallable_Check(value.ptr()))
+    refuse(node, key,
+           "got the function " + written(value) +
+               "; a force law is given by scene.element(NAME, force=..., derivative=...), a signal by "
+               "scene.signal(NAME, function, of=[...], unit=...)");
   refuse(node, key,
          "got " + written(value) + " of type " + py::str(py::type::of(value).attr("__name__")).cast<std::string>() +
              "; a scene key is a number, text with a unit, True or False, a list or a dict");
@@ -143,6 +152,8 @@ py::object value_of(const SceneNode &node)
       list.append(value_of(element));
     return list;
   }
+  case Type::function:
+    return function_object(node);
   case Type::boolean:
     return py::bool_(node.boolean);
   case Type::integer:

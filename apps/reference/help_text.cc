@@ -1,5 +1,6 @@
 #include "apps/reference/help_text.h"
 
+#include "apps/reference/questions.h"
 #include "apps/reference/study_tables.h"
 #include "apps/reference/synonyms.h"
 #include "fem/values/nearest_name.h"
@@ -54,7 +55,8 @@ std::string table_text(const DeclaredTable &table)
 
 std::string list_of_tables()
 {
-  std::string text = "Tables of scenes and studies; gestell help TABLE lists their keys.\n\n";
+  std::string text = "Commands by question; gestell COMMAND --help lists their options.\n\n" + question_lines() +
+                     "\nTables of scenes and studies; gestell help TABLE lists their keys.\n\n";
   for (const DeclaredTable &table : told_tables())
     text += padded(table.path) + plain(table.does) + "\n";
   return text;
@@ -141,6 +143,9 @@ std::string help_text(const std::string &topic)
   if (topic.empty())
     return list_of_tables();
   const std::string named = under_name(topic), related = under_synonym(topic);
+  if (named.empty() && related.empty() && topic.find(' ') != std::string::npos)
+    if (const std::string answers = question_lines(topic); !answers.empty())
+      return answers;
   if (named.empty() && related.empty())
     throw unknown(topic);
   return named + (named.empty() || related.empty() ? "" : "\n") +

@@ -6,6 +6,7 @@
 #include "apps/output/text/write_file.h"
 #include "apps/reference/declared_tables.h"
 #include "apps/reference/json_schema.h"
+#include "apps/reference/questions.h"
 #include "apps/reference/study_tables.h"
 
 #include <algorithm>
@@ -125,10 +126,12 @@ std::string generated(const std::string &marker)
     return result_files_table();
   if (marker == "members: summary.json")
     return "| Member | Type | Unit | Description |\n|---|---|---|---|\n" + summary_members(result_of_all_kinds());
+  if (marker == "questions")
+    return question_table();
   if (marker.rfind(keys, 0) != 0)
     throw std::invalid_argument("the marker '" + marker +
-                                "' is not known; there are 'keys: TABLE', 'members: summary.json', 'result files' and "
-                                "'options'");
+                                "' is not known; there are 'keys: TABLE', 'members: summary.json', 'questions', "
+                                "'result files' and 'options'");
   return key_tables(marker.substr(keys.size()));
 }
 

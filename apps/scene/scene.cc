@@ -188,9 +188,11 @@ std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &n
                                          bool rotors_only, bool measures)
 {
   std::vector<NamedValue> values;
-  for (const auto &name : table.keys())
+  for (const auto &key : table.keys())
   {
-    const bool               frame = !rotors_only && name.rfind("frame.", 0) == 0;
+    const MeasureRequest    *measure = rotors_only || !measures ? nullptr : names.find_measure(key);
+    const std::string        name    = measure ? key : names.coordinate(key);
+    const bool               frame   = !rotors_only && name.rfind("frame.", 0) == 0;
     std::vector<std::string> valid;
     bool                     angle = name.size() > 2 && name[name.size() - 2] == 'r'; // frame.crown.rx
     for (const auto &coordinate : names.coordinates(rates))
@@ -202,7 +204,6 @@ std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &n
       if (coordinate.name == name)
         angle = coordinate.angle;
     }
-    const MeasureRequest *measure = rotors_only || !measures ? nullptr : names.find_measure(name);
     if (measure)
     {
       valid.push_back(name);
@@ -214,17 +215,19 @@ std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &n
           valid.push_back("frame." + interface + "." + motion);
     const bool inner = !rotors_only && is_inner_coordinate(name, names, scene);
     if (!frame && !inner && std::find(valid.begin(), valid.end(), name) == valid.end())
-      throw table.error(name, "there is no " + std::string(rotors_only ? "rotor" : "coordinate") + " '" + name + "'" +
-                                  suggestion(name, valid));
+      throw table.error(key, "there is no " + std::string(rotors_only ? "rotor" : "coordinate") + " '" + name + "'" +
+                                 suggestion(name, valid));
     if (frame && !names.interfaces().empty() && std::find(valid.begin(), valid.end(), name) == valid.end())
-      throw table.error(name, "the frame has no coordinate '" + name + "'" + suggestion(name, valid));
+      throw table.error(key, "the frame has no coordinate '" + name + "'" + suggestion(name, valid));
+    if (std::any_of(values.begin(), values.end(), [&](const NamedValue &other) { return other.name == name; }))
+      throw table.error(key, "is the coordinate '" + name + "', which has a value already; give one of both");
     if (inner) // in the unit of the coordinate itself
     {
-      values.push_back({name, table.number(name, kind::number), table.place(name), false});
+      values.push_back({name, table.number(key, kind::number), table.place(key), false});
       continue;
     }
     const Kind &kind = rates ? (angle ? kind::angular_speed : kind::speed) : (angle ? kind::angle : kind::length);
-    values.push_back({name, table.number(name, kind), table.place(name), measure != nullptr});
+    values.push_back({name, table.number(key, kind), table.place(key), measure != nullptr});
   }
   return values;
 }

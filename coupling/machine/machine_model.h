@@ -2,8 +2,10 @@
 
 #include "coupling/machine/marker.h"
 #include "mechanism/facets.h"
+#include "mechanism/functions/user_function.h"
 #include "mechanism/measures/combined_measure.h"
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,6 +13,8 @@
 
 namespace gestell::coupling
 {
+
+struct ComputedSignal;
 
 /// A scalar requested by the user: scale * (on_q . q + on_v . q' + on_a . q'' + quantity of an element + load at the
 /// time + offset).
@@ -28,9 +32,22 @@ struct Signal
   int         measure = -1;  ///< of add_measure(): value (quantity 0), rate (1) or acceleration (2)
   double      on_t    = 0.;  ///< weight of the time
   Measure     on_a{};
+  std::shared_ptr<const ComputedSignal> computed{}; ///< not null: the value, times `scale`
 
-  bool reads_acceleration() const { return !on_a.empty() || (measure >= 0 && quantity == 2); }
+  bool reads_acceleration() const;
 };
+
+/// A function of the calling program of other signals.  Once it fails, which ends a run, it has no value any more.
+struct ComputedSignal
+{
+  mechanism::UserFunction   function;
+  std::vector<Signal>       of; ///< its arguments
+  mutable std::atomic<bool> failed{false};
+};
+
+/// The signal of such a function, which reads the coordinates of its arguments.
+Signal computed_signal(const std::string &name, const std::string &unit, const mechanism::UserFunction &function,
+                       const std::vector<Signal> &of);
 
 enum class BodyKind
 {

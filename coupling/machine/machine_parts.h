@@ -222,6 +222,7 @@ struct MachineParts
   std::string   coordinate_name(int i) const;
   std::map<std::string, Signal> signals() const; ///< all signals, by path
   Signal                        signal(const std::string &path) const;
+  bool                          has_motion(const std::string &name) const; ///< of a body or a measure
 
   double       *history_of(const PlacedElement &part) { return history.data() + part.first_history; }
   const double *history_of(const PlacedElement &part) const { return history.data() + part.first_history; }

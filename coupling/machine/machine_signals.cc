@@ -1,8 +1,11 @@
+#include "coupling/integration/system/convergence_failure.h"
 #include "coupling/machine/machine.h"
 #include "coupling/machine/machine_parts.h"
 #include "fem/values/nearest_name.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gestell::coupling
 {
@@ -244,6 +247,12 @@ std::vector<std::string> MachineModel::signal_paths() const
   return paths;
 }
 
+bool MachineParts::has_motion(const std::string &name) const
+{
+  const auto is_it = [&](const auto &part) { return part.name == name; };
+  return std::any_of(bodies.begin(), bodies.end(), is_it) || std::any_of(measures.begin(), measures.end(), is_it);
+}
+
 Signal MachineParts::signal(const std::string &path) const
 {
   const bool        minus    = !path.empty() && path[0] == '-';
@@ -251,7 +260,10 @@ Signal MachineParts::signal(const std::string &path) const
   const std::string positive = begin == std::string::npos ? path : path.substr(begin); // "-" without a name is invalid
   const auto        made     = known_signals.empty() ? signals() : std::map<std::string, Signal>();
   const auto       &known    = known_signals.empty() ? made : known_signals;
-  const auto        found    = known.find(positive);
+  auto              found    = known.find(positive);
+  for (const char *ending : {".angle", ".displacement", ".value"}) // the one motion of a body or a measure
+    if (found == known.end() && has_motion(positive))
+      found = known.find(positive + ending);
   if (found == known.end())
   {
     std::vector<std::string> paths;
@@ -291,9 +303,66 @@ int MachineModel::coordinate(const std::string &name) const
   throw std::invalid_argument("there is no coordinate \"" + name + "\"" + suggestion(name, names));
 }
 
+bool Signal::reads_acceleration() const
+{
+  return !on_a.empty() || (measure >= 0 && quantity == 2) ||
+         (computed && std::any_of(computed->of.begin(), computed->of.end(),
+                                  [](const Signal &part) { return part.reads_acceleration(); }));
+}
+
+Signal computed_signal(const std::string &name, const std::string &unit, const mechanism::UserFunction &function,
+                       const std::vector<Signal> &of)
+{
+  auto computed      = std::make_shared<ComputedSignal>();
+  computed->function = function;
+  computed->of       = of;
+  Signal signal;
+  signal.name = name;
+  signal.unit = unit;
+  for (const Signal &part : of) // so that the reader provides their motion
+    for (const Measure *measure : {&part.on_q, &part.on_v})
+      for (const auto &[coordinate, weight] : *measure)
+        signal.on_q.emplace_back(coordinate, 0.);
+  signal.computed = std::move(computed);
+  return signal;
+}
+
+namespace
+{
+/// @throws ConvergenceFailure for the first value that is none
+double computed_value(const Signal &signal, const std::vector<double> &arguments)
+{
+  double                value = std::numeric_limits<double>::quiet_NaN();
+  const ComputedSignal &own   = *signal.computed;
+  if (own.failed)
+    return value;
+  std::string failure = "returned a value that is not a finite number";
+  try
+  {
+    own.function({arguments.data(), int(arguments.size())}, {}, &value, 1);
+  }
+  catch (const std::exception &raised)
+  {
+    failure = raised.what();
+  }
+  if (std::isfinite(value))
+    return value;
+  own.failed = true;
+  throw ConvergenceFailure("the function of the signal \"" + signal.name + "\" " + failure, "signal-without-value",
+                           signal.name);
+}
+} // namespace
+
 double Machine::evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                          const Eigen::VectorXd &a, const LocalState &local) const
 {
+  if (signal.computed)
+  {
+    std::vector<double> arguments;
+    for (const Signal &part : signal.computed->of)
+      arguments.push_back(evaluate(part, q, v, a, local));
+    return signal.scale * computed_value(signal, arguments);
+  }
   double value = signal.offset + signal.on_t * local.t;
   for (const auto &[i, weight] : signal.on_q)
     value += weight * q[i];

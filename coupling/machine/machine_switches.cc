@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 namespace gestell::coupling
@@ -306,10 +307,11 @@ double MachineParts::watched_value(const PlacedSwitch &own, const LocalState &st
 
 void Machine::will_read(const std::vector<Signal> &signals)
 {
-  const auto reads_joint = [&](const Signal &signal)
+  const std::function<bool(const Signal &)> reads_joint = [&](const Signal &signal)
   {
     return (signal.reads_acceleration() && !parts_->joints.empty()) ||
-           (signal.element >= 0 && parts_->placed[signal.element].tells_multipliers(signal.quantity));
+           (signal.element >= 0 && parts_->placed[signal.element].tells_multipliers(signal.quantity)) ||
+           (signal.computed && std::any_of(signal.computed->of.begin(), signal.computed->of.end(), reads_joint));
   };
   parts_->reads_joints = std::any_of(signals.begin(), signals.end(), reads_joint);
 }

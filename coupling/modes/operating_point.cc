@@ -323,6 +323,10 @@ MachinePoint machine_point(Machine &machine, const InitialState &state)
 
 LinearAnswer linear_signal(const Machine &machine, const Signal &signal, const MachinePoint &at)
 {
+  if (signal.computed)
+    throw std::invalid_argument("the signal \"" + signal.name +
+                                "\" is a function of the calling program, which has no linear form; name the signals "
+                                "it is computed from");
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
   LinearAnswer          answer{zero, zero, zero, {}, {}};
   add(signal.on_q, signal.scale, answer.q);

@@ -97,13 +97,13 @@ SweptCoordinate swept_coordinate(const Machine &machine, const std::string &name
       return one;
     names.push_back(one.name);
   }
-  // A body of one coordinate, or a measure, by its own name.
+  // A body of one coordinate, the angle of a planar body, or a measure, by its own name.
   for (const SweptCoordinate &one : all)
     for (const char *end : {".angle", ".displacement", ".value"})
-      if (one.name == name + end && (one.coordinate < 0 || machine.coordinate_name(one.coordinate) == name))
+      if (one.name == name + end)
         return one;
   for (const Body &body : machine.model().bodies())
-    if (body.kind == BodyKind::rotor || body.kind == BodyKind::slider)
+    if (body.kind != BodyKind::point && body.kind != BodyKind::rigid)
       names.push_back(body.name);
   for (const SweptCoordinate &one : all)
     if (!one.measure.empty())

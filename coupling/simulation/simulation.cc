@@ -123,10 +123,10 @@ EventOptions event_options(const RunOptions &options, double still)
 }
 
 /// If a run fails before its first instant nothing is known.
-void fail_at_start(const ConvergenceFailure &failure, RunResult &result)
+void fail_at_start(const ConvergenceFailure &failure, const Machine &machine, RunResult &result)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  result.failure        = std::string("the machine does not start: ") + failure.what();
+  result.failure        = std::string("the machine does not start: ") + failure.what() + faults_of(machine);
   for (SignalSummary &signal : result.signals)
     signal.min = signal.t_min = signal.max = signal.t_max = signal.final = none;
 }
@@ -325,7 +325,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   }
   catch (const ConvergenceFailure &failure)
   {
-    fail_at_start(failure, result);
+    fail_at_start(failure, machine, result);
     return result;
   }
   if (checkpoints && !checkpoints->from.empty())

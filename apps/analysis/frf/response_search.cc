@@ -55,11 +55,6 @@ coupling::Signal named_signal(const std::string &option, const std::string &name
   for (const coupling::Signal &signal : of_scene)
     if (signal.name == name)
       return signal;
-  const std::vector<std::string> paths = machine.model().signal_paths();
-  for (const std::string ending : {"", ".displacement", ".angle", ".value"})
-    if (const auto begin = name.find_first_not_of("- ");
-        begin != std::string::npos && std::find(paths.begin(), paths.end(), name.substr(begin) + ending) != paths.end())
-      return machine.signal(name, name + ending);
   try
   {
     return machine.signal(name, name);

@@ -40,7 +40,7 @@ std::optional<coupling::Signal> rate_of(const coupling::Signal &signal)
   coupling::Signal rate = signal;
   rate.name += "'";
   rate.unit += "/s";
-  if (signal.element >= 0 || signal.load >= 0 || !signal.on_v.empty() || !signal.on_a.empty())
+  if (signal.element >= 0 || signal.load >= 0 || !signal.on_v.empty() || !signal.on_a.empty() || signal.computed)
     return std::nullopt;
   if (signal.measure >= 0)
   {

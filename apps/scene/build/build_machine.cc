@@ -351,6 +351,14 @@ void require_motion(const coupling::Signal &signal, const std::string &path)
                                 "one, or leave the signal out");
 }
 
+coupling::Signal signal_of_user(const SignalRequest &request, const coupling::Machine &machine)
+{
+  std::vector<coupling::Signal> of;
+  for (const std::string &path : request.of)
+    of.push_back(machine.signal(request.name, path));
+  return coupling::computed_signal(request.name, request.user->unit, request.user->value, of);
+}
+
 } // namespace
 
 std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::Machine &machine)
@@ -358,6 +366,11 @@ std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::
   std::vector<coupling::Signal> signals;
   for (const auto &request : scene.signals)
   {
+    if (request.user)
+    {
+      signals.push_back(placed(request.place, [&] { return signal_of_user(request, machine); }));
+      continue;
+    }
     signals.push_back(placed(request.place, [&] { return machine.signal(request.name, request.path); }));
     placed(request.place, [&] { require_motion(signals.back(), request.path); });
     signals.back().from = request.from;

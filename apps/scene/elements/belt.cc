@@ -47,21 +47,36 @@ double strand_stiffness(const SceneTable &table, const Loop &loop)
   return table.has("stiffness") ? table.value("stiffness") : table.value("rigidity") / loop.strand();
 }
 
-/// Elongation of both strands [m] of a loop that has the length `length` without force.
-/// @param largest  strain that a loop may have
-double elongation_by(const SceneTable &table, const Loop &loop, double length, double largest)
+/// What a loop of given length may have.
+struct LoopLimits
 {
-  const double strain = (loop.path() - length) / length;
-  if (strain > largest)
-    throw table.error(
-        "is " + short_text(length, 6) + " m long, but its way around both wheels at a centre distance of " +
-        short_text(loop.distance, 6) + " m is " + short_text(loop.path(), 6) + " m: it would be stretched by " +
-        percent(strain) + ", at most " + percent(largest) + " makes sense; take it longer or move the wheels together");
+  std::string key;            ///< that gives the length
+  double      usual, largest; ///< strain: beyond the first a warning, beyond the second an error
+  double      slack;          ///< [m] that its mounting leaves; beyond: a warning
+};
+
+/// Elongation of both strands [m] of a loop that has the length `length` without force.
+double elongation_by(const SceneTable &table, const Loop &loop, double length, const LoopLimits &limits)
+{
+  const double      strain = (loop.path() - length) / length;
+  const std::string way    = "is " + short_text(length, 6) +
+                          " m long, but its way around both wheels at a centre distance of " +
+                          short_text(loop.distance, 6) + " m is " + short_text(loop.path(), 6) + " m: ";
+  if (strain > limits.largest)
+    throw table.error(way + "it would be stretched by " + percent(strain) + ", at most " + percent(limits.largest) +
+                      " makes sense; take it longer or move the wheels together");
+  if (strain > limits.usual)
+    table.warn(limits.key, way + "it is stretched by " + percent(strain) + " at the start, more than the usual " +
+                               percent(limits.usual) + "; check length and centres");
+  if (length - loop.path() > limits.slack)
+    table.warn(limits.key, way + "both strands are slack at the start, by " +
+                               short_text(0.5 * (length - loop.path()), 3) +
+                               " m each, and the wheels turn freely until one is taut; check length and centres");
   return strain > 0. ? strain * loop.strand() : 0.5 * (loop.path() - length);
 }
 
 void add_loop(const SceneTable &table, Scene &scene, const WheelPair &wheels, const Loop &loop,
-              const std::optional<double> &length, double largest_strain)
+              const std::optional<double> &length, const LoopLimits &limits)
 {
   Belt::Parameters belt;
   belt.stiffness = strand_stiffness(table, loop);
@@ -69,7 +84,7 @@ void add_loop(const SceneTable &table, Scene &scene, const WheelPair &wheels, co
   belt.circles   = loop.circles();
   belt.distance  = loop.distance;
   belt.initial =
-      length ? elongation_by(table, loop, *length, largest_strain) : table.value_or("pretension", 0.) / belt.stiffness;
+      length ? elongation_by(table, loop, *length, limits) : table.value_or("pretension", 0.) / belt.stiffness;
   TangentsRequest strands;
   strands.first  = loop.from;
   strands.second = loop.to;
@@ -84,10 +99,11 @@ void read_belt(const SceneTable &table, const Names &names, Scene &scene)
         "of the two");
   const WheelPair wheels = read_wheels(table, names, "pulley");
   const double    to     = table.value("radius_to");
-  // Belts that hold by their stretch alone are mounted with up to 5 %; beyond that E A is not constant.
+  // Belts that hold by their stretch alone are mounted with up to 5 %, beyond which E A is not constant; those with
+  // cords below 1 %.
   add_loop(table, scene, wheels,
            loop_around(table, table.value("radius_from"), table.truth("crossed") ? -to : to, wheels.distance),
-           table.has("length") ? std::optional(table.value("length")) : std::nullopt, 0.05);
+           table.has("length") ? std::optional(table.value("length")) : std::nullopt, {"length", 0.01, 0.05, 0.});
 }
 
 /// Mean radius, z p/(2 pi): on average a sprocket carries z links in a turn.
@@ -115,10 +131,10 @@ void read_chain(const SceneTable &table, const Names &names, Scene &scene)
   if (table.has("pretension") && table.has("links"))
     throw table.error("has 'pretension' and 'links', which determines it; give one of them");
   const WheelPair wheels = read_wheels(table, names, "sprocket");
-  // Steel yields before half a percent.
+  // Steel yields before half a percent; a chain, mounted without pull, comes in pairs of links.
   add_loop(table, scene, wheels,
            loop_around(table, sprocket(table, "teeth_from"), sprocket(table, "teeth_to"), wheels.distance),
-           read_links(table), 0.005);
+           read_links(table), {"links", 0.001, 0.005, 2. * table.value("pitch")});
 }
 
 std::vector<Key> strand_keys()
@@ -158,23 +174,13 @@ ElementType belt_type()
                 .above_zero()
                 .by_default("by `pretension`")}}),
       read_belt,
-      {R"toml(from        = "flywheel"
-to          = "crank"
-at_from     = [0, 0, 0]
-at_to       = ["0.6 m", 0, 0]
-axis        = [0, 1, 0]
-radius_from = "60 mm"
+      {wheel_example() + R"toml(radius_from = "60 mm"
 radius_to   = "150 mm"
 rigidity    = "120 kN"
 damping     = "20 N s/m"
 pretension  = "400 N"
 )toml",
-       R"toml(from        = "flywheel"
-to          = "crank"
-at_from     = [0, 0, 0]
-at_to       = ["0.6 m", 0, 0]
-axis        = [0, 1, 0]
-radius_from = "60 mm"
+       wheel_example() + R"toml(radius_from = "60 mm"
 radius_to   = "150 mm"
 crossed     = true
 stiffness   = "200 N/mm"
@@ -197,28 +203,18 @@ ElementType chain_type()
                        .by_default("0, or by `links`"),
                    key::plain("links", Key::Form::whole, "number of links, instead of `pretension`").by_default("")}}),
           read_chain,
-          {R"toml(from       = "flywheel"
-to         = "crank"
-at_from    = [0, 0, 0]
-at_to      = ["0.6 m", 0, 0]
-axis       = [0, 1, 0]
-pitch      = "12.7 mm"
-teeth_from = 17
-teeth_to   = 38
-rigidity   = "2 MN"
-damping    = "50 N s/m"
-pretension = "50 N"
+          {wheel_example() + R"toml(pitch       = "12.7 mm"
+teeth_from  = 17
+teeth_to    = 38
+rigidity    = "2 MN"
+damping     = "50 N s/m"
+pretension  = "50 N"
 )toml",
-           R"toml(from       = "flywheel"
-to         = "crank"
-at_from    = [0, 0, 0]
-at_to      = ["0.6 m", 0, 0]
-axis       = [0, 1, 0]
-pitch      = "12.7 mm"
-teeth_from = 17
-teeth_to   = 38
-stiffness  = "3 kN/mm"
-links      = 124
+           wheel_example() + R"toml(pitch       = "12.7 mm"
+teeth_from  = 17
+teeth_to    = 38
+stiffness   = "3 kN/mm"
+links       = 124
 )toml"}};
 }
 

@@ -1,6 +1,8 @@
 #include "mechanism/elements/formula_force.h"
+#include "mechanism/user_force.h"
 
 #include "apps/scene/elements/element_types.h"
+#include "apps/scene/read/checked.h"
 #include "apps/scene/read/relative_motion.h"
 
 namespace gestell::apps
@@ -9,9 +11,18 @@ namespace gestell::apps
 /// +F acts on `from` along the direction, on `to` against it.
 void read_formula_force(const SceneTable &table, const Names &names, Scene &scene)
 {
-  using mechanism::FormulaForce;
-  const auto                  motion    = read_relative_motion(table, names);
-  const bool                  turns     = motion.rotation;
+  using mechanism::FormulaForce, mechanism::UserForce;
+  const auto motion = read_relative_motion(table, names);
+  const bool turns  = motion.rotation;
+  if (const auto user = table.user_value("force"))
+  {
+    if (!user->law)
+      throw table.error("force", "is a function for a signal; make it by Scene.element(NAME, force=...)");
+    const auto along = turns ? UserForce::Along::angle : UserForce::Along::line;
+    add_element_on(scene, table, checked(table, [&] { return std::make_shared<UserForce>(*user->law, along); }),
+                   motion);
+    return;
+  }
   const Counts                counts    = turns ? Counts::radians : Counts::nothing;
   const std::vector<Variable> variables = {
       // in the order of FormulaForce::Variable

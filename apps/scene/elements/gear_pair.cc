@@ -111,12 +111,7 @@ ElementType gear_pair_type()
                        .from_zero()
                        .by_default(0.)}}),
           read_gear_pair,
-          {R"toml(from           = "flywheel"
-to             = "crank"
-at_from        = [0, 0, 0]
-at_to          = ["0.6 m", 0, 0]
-axis           = [0, 1, 0]
-radius_from    = "170 mm"
+          {wheel_example() + R"toml(radius_from    = "170 mm"
 radius_to      = "430 mm"
 pressure_angle = "20 deg"
 helix_angle    = "15 deg"

@@ -140,4 +140,12 @@ bool SceneTable::truth(const std::string &key) const
   return boolean(key, declaration(key).fallback.value_or(0.) != 0.);
 }
 
+std::shared_ptr<const UserValue> SceneTable::user_value(const std::string &key) const
+{
+  const SceneNode *value = look_up(key);
+  if (value && !value->user && !lost_function(value->text).empty())
+    throw error(key, lost_function(value->text));
+  return value ? value->user : nullptr;
+}
+
 } // namespace gestell::apps

@@ -66,6 +66,8 @@ std::string written_value(const SceneNode &value, std::string (*text_of)(const S
   {
   case SceneNode::Type::text:
     return written_text(text_of ? text_of(value) : value.text);
+  case SceneNode::Type::function:
+    return written_text(value.text);
   case SceneNode::Type::boolean:
     return value.boolean ? "true" : "false";
   case SceneNode::Type::array:

@@ -41,6 +41,8 @@ std::string type_name(Type type)
     return "true or false";
   case Type::date:
     return "a date";
+  case Type::function:
+    return "a function";
   }
   return "";
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -8,6 +9,8 @@
 
 namespace gestell::apps
 {
+
+struct UserValue;
 
 /// Location of a value: "press.toml:12", or "--set run.step=1" from the command line.
 struct Place
@@ -31,7 +34,8 @@ struct SceneNode
     integer,
     real,
     boolean,
-    date
+    date,
+    function ///< of the calling program; `text` is its mark
   };
   using Entry = std::pair<std::string, SceneNode>;
 
@@ -42,8 +46,9 @@ struct SceneNode
   double      number  = 0.;
   bool        boolean = false;
 
-  std::vector<Entry>     entries;  ///< of a table
-  std::vector<SceneNode> elements; ///< of an array
+  std::vector<Entry>               entries;  ///< of a table
+  std::vector<SceneNode>           elements; ///< of an array
+  std::shared_ptr<const UserValue> user{};   ///< of a function
 
   mutable bool                  used = false; ///< a reader requested it
   mutable std::set<std::string> requested;    ///< keys that readers requested from this table

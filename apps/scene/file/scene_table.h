@@ -3,6 +3,7 @@
 #include "apps/scene/file/declaration.h"
 #include "apps/scene/file/parameters.h"
 #include "apps/scene/file/scene_node.h"
+#include "apps/scene/file/user_value.h"
 #include "apps/scene/language/quantity.h"
 
 #include <array>
@@ -106,6 +107,9 @@ public:
   std::vector<SceneTable> table_array(const std::string &key) const;
   /// Keys of this table in the order of the file.
   std::vector<std::string> keys() const;
+
+  /// The function of the calling program that the entry is; null: it is none.
+  std::shared_ptr<const UserValue> user_value(const std::string &key) const;
 
   bool is_text(const std::string &key) const;
   bool is_array(const std::string &key) const;

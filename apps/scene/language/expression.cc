@@ -35,10 +35,10 @@ bool counts_shaft_turns(const Expression &e)
   return e.counts == Counts::shaft_turns;
 }
 
-/// Whether a factor leaves shaft revolutions unchanged: a plain number, a time.
+/// Whether a factor leaves shaft revolutions unchanged.  Lengths and masses must cancel by the end: check_turns().
 bool leaves_turns(const Expression &e)
 {
-  return e.counts <= Counts::minutes && e.counts != Counts::pi && equal({e.dimension[0], e.dimension[1], 0.}, {});
+  return e.counts <= Counts::minutes && e.counts != Counts::pi;
 }
 
 [[noreturn]] void fail_turns(const std::string &verb, const Expression &a, const Expression &b)
@@ -162,9 +162,16 @@ Expression divided(const Expression &a, const Expression &b)
   if (!counts_shaft_turns(b) && (!counts_shaft_turns(a) || leaves_turns(b)))
     return quotient;
   const bool in_radians = a.counts >= Counts::shaft_turns && b.counts >= Counts::shaft_turns;
-  if (!in_radians || !equal(a.dimension, b.dimension))
+  if (!in_radians || !equal({0., 0., quotient.dimension[2]}, {}))
     fail_turns("divides", a, b);
-  return {quotient.formula, quotient.dimension, quotient.checked, Counts::nothing}; // a ratio of speeds
+  return {quotient.formula, quotient.dimension, quotient.checked, Counts::nothing}; // with a ratio of speeds
+}
+
+void check_turns(const Expression &e)
+{
+  const Dimension beside{e.dimension[0], e.dimension[1], 0.};
+  if (counts_shaft_turns(e) && e.checked && !equal(beside, {}))
+    fail_turns("multiplies", e, Quantity{1., beside, true, Counts::nothing});
 }
 
 Expression shaft_turns(const Expression &a, const Expression &minutes)

@@ -38,6 +38,9 @@ Expression divided(const Expression &a, const Expression &b);
 Expression negated(const Expression &a);
 /// a per `minutes`: a number of shaft revolutions in a time.
 Expression shaft_turns(const Expression &a, const Expression &minutes);
+/// @throws std::invalid_argument for turns of a shaft times a length or a mass, of a whole expression: n*D_1/D_2 has
+/// none.
+void       check_turns(const Expression &e);
 Expression raised(const Expression &a, const Expression &exponent);
 
 /// a - b, for a comparison of the two.

@@ -44,7 +44,7 @@ public:
     const Expression e = sum();
     if (!at_end())
       missing_operator();
-    return e;
+    return at(next_, [&] { return check_turns(e), e; });
   }
 
   /// Replaces the token by `text`.

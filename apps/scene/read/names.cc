@@ -133,11 +133,31 @@ std::vector<Names::Coordinate> Names::coordinates(bool rates) const
   return coordinates;
 }
 
+const BodyRequest *Names::body_of_angle(const std::string &name) const
+{
+  const std::string  ending = ".angle";
+  const std::size_t  end    = name.size() - std::min(name.size(), ending.size());
+  const BodyRequest *body   = name.substr(end) == ending ? find_body(name.substr(0, end)) : nullptr;
+  const bool turns = body && (body->kind == coupling::BodyKind::rotor || body->kind == coupling::BodyKind::planar);
+  return turns ? body : nullptr;
+}
+
+std::string Names::coordinate(const std::string &name) const
+{
+  if (const BodyRequest *body = find_body(name))
+    return body->kind == coupling::BodyKind::planar ? name + ".angle" : name;
+  if (const BodyRequest *body = body_of_angle(name))
+    return body->kind == coupling::BodyKind::rotor ? body->name : name;
+  const auto         dot  = name.rfind(".displacement");
+  const BodyRequest *body = dot == std::string::npos ? nullptr : find_body(name.substr(0, dot));
+  return body && body->kind == coupling::BodyKind::slider && body->name + ".displacement" == name ? body->name : name;
+}
+
 const BodyRequest &Names::body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const
 {
   const std::string  name  = table.text(key);
   const std::string  words = kind == coupling::BodyKind::rotor ? "rotor" : "slider";
-  const BodyRequest *found = find_body(name);
+  const BodyRequest *angle = body_of_angle(name), *found = angle ? angle : find_body(name);
   if (found && found->kind == kind)
     return *found;
   std::vector<std::string> valid;

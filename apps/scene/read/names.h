@@ -41,7 +41,13 @@ public:
   };
   std::vector<Coordinate> coordinates(bool rates) const;
 
-  /// Body of the kind `kind` named by a key of `table`.
+  /// The coordinate of that name: `crank` and `crank.angle` are the angle of a rotor or planar body, `slide` and
+  /// `slide.displacement` the way of a slider; other names are unchanged.
+  std::string coordinate(const std::string &name) const;
+  /// The rotor or planar body whose angle is `name`, "crank.angle"; null if it is none.
+  const BodyRequest *body_of_angle(const std::string &name) const;
+
+  /// Body of the kind `kind` named by a key of `table`; of a rotor also by its angle.
   const BodyRequest &body(const SceneTable &table, const std::string &key, coupling::BodyKind kind) const;
 
   const BodyRequest              *find_body(const std::string &name) const; ///< null if there is none

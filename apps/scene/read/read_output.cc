@@ -245,6 +245,19 @@ static void read_window(const SceneTable &table, Scene &result)
                                   " s; give a time within the run, or leave it out for the whole run");
 }
 
+/// Arguments of functions may be other signals, by their name.
+static void name_arguments(Scene &result)
+{
+  for (SignalRequest &computed : result.signals)
+    for (std::string &argument : computed.of)
+      for (const SignalRequest &other : result.signals)
+        if (!other.user && other.name == argument)
+        {
+          argument = other.path;
+          break;
+        }
+}
+
 void read_output(const SceneTable &scene, Scene &result)
 {
   coupling::RunOptions &run = result.run.options;
@@ -269,6 +282,13 @@ void read_output(const SceneTable &scene, Scene &result)
       if (name.empty() || name.find_first_of(",\"\n[]") != std::string::npos || name == "t")
         throw signals->error(name, "is not a valid name for a signal: it heads a column of history.csv, so it must not "
                                    "be 't' or contain commas, quotes or brackets");
+      if (const auto user = signals->user_value(name))
+      {
+        if (!user->signal)
+          throw signals->error(name, "is a force law; a function of signals is added by Scene.signal(...)");
+        result.signals.push_back({name, user->mark, signals->place(name), "", user->signal, user->signal->of});
+        continue;
+      }
       if (!signals->is_table(name))
       {
         result.signals.push_back({name, signals->text(name), signals->place(name), ""});
@@ -277,6 +297,7 @@ void read_output(const SceneTable &scene, Scene &result)
       const auto watched = signals->table(name).declared(watched_signal_keys());
       result.signals.push_back({name, watched.text("signal"), signals->place(name), watched.text("from")});
     }
+  name_arguments(result);
   read_stress(table, result);
   read_stages(table, result);
 }

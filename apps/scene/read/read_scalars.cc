@@ -71,16 +71,16 @@ ScalarRequest read_scalar(const SceneTable &table, const std::string &key, const
       return {measure->terms[0], measure->unit, name};
     return {{1., {}, std::make_shared<MeasureRequest>(*measure)}, measure->unit, name};
   }
+  const std::string        own = names.coordinate(name);
   std::vector<std::string> valid;
   for (const NamedScalar &known : coordinates(names))
   {
-    if (known.name == name)
+    if (known.name == own)
       return {{1., {known.term}, nullptr}, known.unit, name};
     valid.push_back(known.name);
   }
   const BodyRequest *body = names.find_body(name);
-  throw table.error(key, body ? "'" + name + "' has several coordinates; name one, as '" + name +
-                                    (body->kind == BodyKind::planar ? ".angle'" : ".ux'") + ", or a [measure]"
+  throw table.error(key, body ? "'" + name + "' has several coordinates; name one, as '" + name + ".ux', or a [measure]"
                               : "there is no measure or coordinate '" + name + "'" + suggestion(name, valid));
 }
 

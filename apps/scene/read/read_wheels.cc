@@ -32,8 +32,11 @@ PlaceRequest read_wheel(const SceneTable &table, const Names &names, const std::
   const BodyRequest *body  = names.find_body(place.marker);
   if (body)
     check_turning(table, key, *body, axis);
+  if (!place.at && body && body->kind == BodyKind::rotor)
+    place.at = body->position; // on its axis
   if (!place.at && body)
-    place.at = body->position;
+    throw table.error(key, "needs 'at_" + key + "', the axis of the wheel in the initial configuration: '" +
+                               body->name + "' is a planar body, whose `position` is its centre of mass");
   if (!place.at)
     throw table.error(key, "needs 'at_" + key + "', the centre of the wheel on '" + place.marker +
                                "' in the initial configuration");
@@ -48,11 +51,21 @@ std::vector<Key> wheel_keys(const std::string &wheel)
       key::named("from", "body with one " + wheel + ": a rotor or a planar body; at rest an interface or the ground"),
       key::named("to", "body with the other " + wheel),
       key::vector("at_from", kind::length, "centre of the " + wheel + " on `from`, in the initial configuration")
-          .by_default("`position` of the body"),
+          .by_default("`position` of a rotor"),
       key::vector("at_to", kind::length, "centre of the " + wheel + " on `to`, in the initial configuration")
-          .by_default("`position` of the body"),
+          .by_default("`position` of a rotor"),
       key::direction("axis", "common axis direction; left is the left-hand side when looking from `from` to `to` with "
                              "the axis pointing to the viewer")};
+}
+
+std::string wheel_example()
+{
+  return R"toml(from        = "flywheel"
+to          = "crank"
+at_from     = [0, 0, 0]
+at_to       = ["0.6 m", 0, 0]
+axis        = [0, 1, 0]
+)toml";
 }
 
 WheelPair read_wheels(const SceneTable &table, const Names &names, const std::string &wheel)

@@ -20,6 +20,9 @@ struct WheelPair
 /// `from`, `to`, `at_from`, `at_to`, `axis`.
 std::vector<Key> wheel_keys(const std::string &wheel);
 
+/// These keys in an example.
+std::string wheel_example();
+
 /// @param wheel  for messages, "pulley"
 /// @throws the table's error for wheels that do not turn about `axis`, or whose centres lie in different planes
 WheelPair read_wheels(const SceneTable &table, const Names &names, const std::string &wheel);

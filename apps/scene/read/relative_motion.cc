@@ -76,6 +76,23 @@ void refuse_turning_point(const SceneTable &table, const Names &names, const Pla
       throw table.error(key, "is of no meaning: an angle is that of the whole body; leave it out");
 }
 
+namespace
+{
+
+/// `from` or `to`: a place, or the angle of a body.
+PlaceRequest read_end(const SceneTable &table, const Names &names, const std::string &key, const std::string &at,
+                      bool &angle)
+{
+  if (const BodyRequest *body = table.has(key) ? names.body_of_angle(table.text(key)) : nullptr)
+  {
+    angle = true;
+    return {body->name, {}};
+  }
+  return key == "to" ? names.place(table, key, at, "ground") : names.place(table, key, at);
+}
+
+} // namespace
+
 RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
 {
   if (table.has("on") && !table.has("from"))
@@ -83,24 +100,28 @@ RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
     const MeasureRequest &measure = names.measure(table, "on");
     return {{}, measure.unit == "rad", measure.name};
   }
-  const PlaceRequest from = names.place(table, "from", "at_from"), to = names.place(table, "to", "at_to", "ground");
+  bool               angle = false;
+  const PlaceRequest from  = read_end(table, names, "from", "at_from", angle),
+                     to    = read_end(table, names, "to", "at_to", angle);
   if (from.marker == to.marker)
     throw table.error("to", "is '" + to.marker + "' like `from`; an element acts between two places");
 
   const bool along = table.has("direction"), about = table.has("about");
   if (along && about)
     throw table.error("has both 'direction' and 'about'; give 'direction' for a displacement or 'about' for an angle");
+  if (along && angle)
+    throw table.error("direction", "is of no meaning: `from` or `to` names an angle; leave it out, or name the body");
   if (along)
     return displacement(from, to, table.direction("direction"));
-  if (about)
-  {
+  if (about || angle)
     refuse_turning_point(table, names, from, to);
+  if (about)
     return {difference(from.marker, to.marker, table.direction("about"), true), true, ""};
-  }
   const BodyRequest *a = names.find_body(from.marker), *b = names.find_body(to.marker);
-  if (const auto *slider = leading_body(a, b, coupling::BodyKind::slider))
+  if (const auto *slider = leading_body(a, b, coupling::BodyKind::slider); slider && !angle)
     return displacement(from, to, slider->axis);
-  const auto *rotor = leading_body(a, b, coupling::BodyKind::rotor);
+  const auto *turning = leading_body(a, b, coupling::BodyKind::rotor);
+  const auto *rotor   = turning ? turning : leading_body(a, b, coupling::BodyKind::planar);
   if (!rotor || from.at || to.at || (a && b && !parallel(a->axis, b->axis)))
     throw table.error("give 'direction' (a displacement) or 'about' (an angle) between '" + from.marker + "' and '" +
                       to.marker + "': their axes do not determine it");
@@ -118,11 +139,12 @@ RelativeMotion read_displacement(const SceneTable &table, const Names &names)
 std::vector<Key> motion_keys()
 {
   return {
-      key::named("from", "body, frame.INTERFACE or marker; the element acts on u = motion(from) - motion(to)")
+      key::named("from", "body, its angle (`crank.angle`), frame.INTERFACE or marker; the element acts on u = "
+                         "motion(from) - motion(to)")
           .by_default("`on`"),
       key::named("to", "the other body, frame.INTERFACE or marker").by_default("ground"),
       key::direction("direction", "direction of the displacement u").by_default("axis of the slider, if there is one"),
-      key::direction("about", "axis of the angle u").by_default("axis of the rotor, if there is one"),
+      key::direction("about", "axis of the angle u").by_default("axis of the rotor or planar body, if there is one"),
       key::vector("at_from", kind::length, "point of `from` whose displacement counts, in the reference configuration")
           .by_default(""),
       key::vector("at_to", kind::length, "point of `to`, in the reference configuration").by_default(""),
@@ -174,10 +196,10 @@ RelativeMotion read_shaft(const SceneTable &table, const Names &names)
                                   "' already says against what the motor turns; leave it out");
     return {{}, true, name};
   }
-  const BodyRequest *body = names.find_body(name);
+  const BodyRequest *angle = names.body_of_angle(name), *body = angle ? angle : names.find_body(name);
   if (!body || body->kind != coupling::BodyKind::planar)
     body = &names.body(table, "on", coupling::BodyKind::rotor);
-  return {difference(name, stator_of(table, names, *body), body->axis, true), true, ""};
+  return {difference(body->name, stator_of(table, names, *body), body->axis, true), true, ""};
 }
 
 void add_element(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceLaw> element,

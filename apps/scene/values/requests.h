@@ -9,6 +9,7 @@
 #include "fem/values/cad_body.h"
 #include "fem/values/frame_matrices.h"
 #include "fem/values/frame_specification.h"
+#include "mechanism/functions/user_function.h"
 #include "mechanism/joints/motion_law.h"
 
 #include <map>
@@ -289,8 +290,10 @@ struct StartRequest
 
 struct SignalRequest
 {
-  std::string name, path, place;
-  std::string from; ///< event after which its extremes are evaluated
+  std::string                                  name, path, place;
+  std::string                                  from;   ///< event after which its extremes are evaluated
+  std::shared_ptr<const mechanism::UserSignal> user{}; ///< a function of other signals; null: `path`
+  std::vector<std::string>                     of{};   ///< paths of its arguments
 };
 
 /// An instant of the run at which stresses are computed.

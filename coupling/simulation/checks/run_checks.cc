@@ -16,6 +16,7 @@
 #include "coupling/simulation/checks/stiffness_check.h"
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
+#include "mechanism/user_force.h"
 
 #include <algorithm>
 #include <array>
@@ -213,9 +214,21 @@ std::vector<std::unique_ptr<RunObserver>> run_checks(Machine &machine, const Mot
   return checks;
 }
 
-std::string advice_on_failure(const Machine &machine, const MethodOptions &method, const Instant &last)
+std::string faults_of(const Machine &machine)
 {
   std::string text;
+  for (const ElementPlacement &placement : machine.model().elements())
+    if (const auto *law = law_of<mechanism::UserForce>(placement))
+      if (const std::string fault = law->fault(); !fault.empty())
+        text += ".  In \"" + placement.name + "\" " + fault;
+  return text;
+}
+
+std::string advice_on_failure(const Machine &machine, const MethodOptions &method, const Instant &last)
+{
+  std::string text = faults_of(machine);
+  if (!text.empty())
+    return text;
   if (const std::string joint = ConstraintRank::at(machine, last.t, last.q).nearly_dependent(); !joint.empty())
     text += ".  The linkage is near a dead position, in which it may go two ways: " + joint +
             " is about to follow from the other joints; keep it off there, or make a joint compliant";

@@ -1,7 +1,12 @@
 // The table of commands: what `gestell --help` and the command line are made from.
 
 #include "apps/cli/commands.h"
+#include "apps/reference/questions.h"
 #include "tests/support/test.h"
+
+#include <map>
+#include <set>
+#include <sstream>
 
 using namespace gestell::apps;
 
@@ -31,5 +36,25 @@ TEST(Commands, HaveOptionsThatNeedWhatStandsBeforeThem)
       EXPECT_TRUE(option.needs.empty() || known.count(option.needs)) << command.name << " " << option.name;
       EXPECT_TRUE(known.insert(option.name).second) << command.name << " " << option.name << " stands there twice";
     }
+  }
+}
+
+TEST(Questions, AreAnsweredByCommandsWithTheirOptions)
+{
+  std::map<std::string, std::set<std::string>> known;
+  for (const Command &command : commands())
+  {
+    known[command.name];
+    for (const CommandOption &option : command.options)
+      known[command.name].insert(option.name);
+  }
+  for (const Question &question : questions())
+  {
+    std::istringstream words(question.command);
+    std::string        name;
+    words >> name;
+    ASSERT_TRUE(known.count(name)) << question.command;
+    for (std::string word; words >> word;)
+      EXPECT_TRUE(word.rfind("--", 0) != 0 || known[name].count(word)) << question.command << ": " << word;
   }
 }

@@ -323,6 +323,11 @@ TEST(Help, AnswersToWordsOfTheWorkshop)
 
 TEST(Help, FindsTablesAndKeysAndSuggestsNearOnes)
 {
+  EXPECT_NE(help_text("").find("gestell size SCENE"), std::string::npos);
+  EXPECT_NE(help_text("what force").find("gestell run SCENE"), std::string::npos);
+  EXPECT_NE(help_text("which frequency").find("gestell modes SCENE"), std::string::npos);
+  EXPECT_NE(help_text("How much model").find("gestell size SCENE"), std::string::npos);
+  EXPECT_NE(help_text("how exact").find("gestell run SCENE --budget"), std::string::npos);
   EXPECT_NE(help_text("").find("element.rope"), std::string::npos);
   EXPECT_NE(help_text("element.rope").find("slack"), std::string::npos);
   EXPECT_EQ(help_text("rope"), help_text("element.rope"));

@@ -239,6 +239,20 @@ TEST(Quantity, WhatCouldCountTurnsOrRadiansIsRefused)
   EXPECT_NE(quantity_complaint("3000 1/min/s", Kind{"plain rate", "3 1/s^2", {0, 0, -2}}), "");
 }
 
+/// The speed of a wheel that another one drives, in any order of the factors.
+TEST(Quantity, TurnsOfAShaftTimesARatioOfLengthsAreTurns)
+{
+  for (const std::string text :
+       {"(600 1/min)*80 mm/(200 mm)", "80 mm*(600 1/min)/(200 mm)", "80 mm/(200 mm)*600 rpm",
+        "(600 1/min)*(80 mm/(200 mm))", "(600 1/min)/(200 mm)*80 mm", "80 mm*600/min/(200 mm)"})
+    EXPECT_NEAR(value_as(read(text), kind::angular_speed, text), 8. * pi, 1e-13) << text;
+  EXPECT_NEAR(value_as(read("80 mm*(600 rpm)/(200 rpm)"), kind::length, ""), 0.24, 1e-15);
+  EXPECT_NEAR(value_as(read("(600 rpm)*80 mm/(200 mm)"), kind::frequency, ""), 4., 1e-14);
+  expect_words(quantity_complaint("600 1/min*80 mm", kind::speed), "turns or radians could be meant");
+  expect_words(quantity_complaint("(600 rpm)*2 kg m^2", kind::torsional_damping), "turns or radians could be meant");
+  expect_words(quantity_complaint("(600 rpm)*pi*80 mm/(200 mm)", kind::angular_speed), "leave pi out");
+}
+
 TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsTold)
 {
   EXPECT_NEAR(read("(1500 rpm)/(50 rad/s)").value, pi, 1e-14); // a ratio of speeds

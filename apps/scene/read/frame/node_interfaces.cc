@@ -119,7 +119,8 @@ void look_at_signals(const Scene &scene, Search &search)
 {
   for (const auto &interface : interfaces_of(scene.frame))
     for (const SignalRequest &signal : scene.signals)
-      if (tells_rotation(signal.path, "frame." + interface.name))
+      if (const auto tells = [&](const std::string &path) { return tells_rotation(path, "frame." + interface.name); };
+          tells(signal.path) || std::any_of(signal.of.begin(), signal.of.end(), tells))
       {
         search.look_at(signal.place);
         search.refuse("frame." + interface.name, "its angle is asked for");
