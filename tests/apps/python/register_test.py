@@ -7,7 +7,7 @@ import sys
 import tempfile
 import unittest
 
-FOLDER = pathlib.Path(sys.argv.pop(1))
+FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
 REGISTER = pathlib.Path(__file__).resolve().parents[3] / "apps" / "python" / "register.py"
 
 
