@@ -1,5 +1,7 @@
+#include "apps/analysis/frf/frequency_response.h"
 #include "apps/analysis/periodic/periodic_charts.h"
 #include "apps/analysis/periodic/periodic_description.h"
+#include "apps/analysis/periodic/periodic_headline.h"
 #include "apps/analysis/periodic/periodic_tables.h"
 #include "apps/output/describe/described_json.h"
 #include "tests/support/test.h"
@@ -60,6 +62,52 @@ TEST(AmplitudeChart, ShowsUnstableMotionsDashedAndTheBackboneDotted)
   EXPECT_EQ(chart.panels[0].curves[1].line, LineStyle::dashed);
   EXPECT_EQ(chart.panels[0].curves[1].y.back(), 3.);
   EXPECT_EQ(chart.panels[0].curves[2].line, LineStyle::dotted);
+}
+
+/// Amplitude and stability over the range: stable, unstable, stable again, and of another branch.
+TEST(PeriodicHeadline, TellsTheLargestValueAndWhereMotionsAreStable)
+{
+  PeriodicResult result;
+  result.parameter      = "parameters.n";
+  result.parameter_unit = "1/min";
+  for (const auto &[n, multiplier, branch] :
+       {std::tuple(200., 0.5, 1), {300., 0.5, 1}, {400., 1.5, 1}, {500., 0.5, 1}, {500., 0.5, 2}, {450., 0.5, 2}})
+  {
+    PeriodicEntry entry;
+    entry.parameter            = n;
+    entry.branch               = branch;
+    entry.solution.multipliers = Eigen::VectorXcd::Constant(1, multiplier);
+    entry.signals              = {spectrum("F", {1.}), spectrum("G", {1.})};
+    entry.signals[0].max       = 10. * n;
+    entry.signals[0].min       = -1e6 / n;
+    result.entries.push_back(entry);
+  }
+  const Headline headline = headline_of(result);
+  EXPECT_EQ(headline.sentence, "6 periodic motions with parameters.n from 200 to 500 1/min: 5 stable, 1 unstable.");
+  ASSERT_EQ(headline.numbers.size(), 2u) << "of signals of one unit the first";
+  EXPECT_EQ(headline.numbers[0].value, "200 to 300, 500, 450 to 500 1/min");
+  EXPECT_EQ(headline.numbers[1].value, "-5 kN");
+  EXPECT_EQ(headline.numbers[1].meaning, "F, largest, at 200 1/min");
+  EXPECT_THAT(headline_of(PeriodicResult()).sentence, StartsWith("No periodic motion was found"));
+}
+
+TEST(FrfHeadline, IsTheHighestPeakOfEachPair)
+{
+  FrequencyResponse response;
+  response.kind           = "receptance";
+  response.frequencies_hz = {1., 100.};
+  response.pairs.resize(2);
+  for (ResponsePair &pair : response.pairs)
+    pair.from = "a", pair.unit = "m/N";
+  response.pairs[0].to    = "b";
+  response.pairs[1].to    = "c";
+  response.pairs[0].peaks = {{10., 1e-3, 0.01}, {20., 2e-3, 0.01}};
+  const Headline headline = headline_of(response);
+  ASSERT_EQ(headline.numbers.size(), 2u);
+  EXPECT_EQ(headline.numbers[0].value, "0.002 m/N at 20 Hz");
+  EXPECT_EQ(headline.numbers[0].meaning, "b/a, highest of 2 peaks");
+  EXPECT_EQ(headline.numbers[1].value, "no peak");
+  EXPECT_THAT(headline.html(), HasSubstr("<strong>0.002 m/N at 20 Hz</strong>"));
 }
 
 /// Cells of one motion that lie side by side are one tile; those not looked at are left white and out of the table.
