@@ -49,9 +49,8 @@ public:
     for (const PartialMesh &mesh : meshes_)
       require_cells(mesh.extracted.mesh.n_cells(),
                     "swept solids have " + text(mesh.extracted.mesh.n_cells()) + " cells", options_);
-    if (!meshes_.empty())
-      meshes_.front().extracted.mesh.statements = {wall_statement(walls_, n_extruded(), others_.empty())};
-    return {std::move(meshes_), std::move(others_)};
+    std::string statement = wall_statement(walls_, n_extruded(), others_.empty());
+    return {std::move(meshes_), std::move(others_), std::move(statement)};
   }
 
 private:
@@ -249,8 +248,9 @@ SweptSolids sweep_solids(const CadModel &model, const Selection &selection, cons
   return Sorting(model, selection, specification, options).sorted();
 }
 
-void note_others(CadModel &model, const SweptSolids &swept, const MeshOptions &options)
+void state_solids(CadModel &model, const SweptSolids &swept, const MeshOptions &options)
 {
+  model.statements.push_back(swept.statement);
   constexpr std::size_t most = 8; // solids that are named
   std::size_t           n    = 0;
   for (const auto &[solid, reason] : swept.others)
