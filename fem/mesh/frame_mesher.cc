@@ -233,7 +233,7 @@ void join_swept(MeshedModel &result, SweptSolids swept, const MeshAttempt &attem
 {
   const FrameSpecification &specification = attempt.specification;
   const int                 bodies        = std::exchange(sizes.options.bodies, 0);
-  note_others(result.model, swept, sizes.options);
+  state_solids(result.model, swept, sizes.options);
   if (!swept.others.empty())
   {
     MeshedModel rest;

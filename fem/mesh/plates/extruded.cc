@@ -149,32 +149,49 @@ SectionMesh ring_section(const Extruded &tube, const MeshOptions &options)
   return mesh;
 }
 
+/// Longest side of each loop: as cells grow from one to the next, sides are at most three times as long as the way to
+/// the nearest other loop.
+std::vector<double> longest_sides(const std::vector<std::vector<int>> &loops, const DrawingPlane &plane, double size)
+{
+  constexpr double    ratio = 3.;
+  std::vector<double> longest;
+  for (const std::vector<int> &loop : loops)
+  {
+    const std::vector<Side> sides = face_loop(loop, plane).sides;
+    double                  apart = size;
+    for (const std::vector<int> &other : loops)
+      if (&other != &loop)
+        apart = std::min(apart, gap_between(sides, face_loop(other, plane).sides));
+    longest.push_back(std::clamp(ratio * apart, 1e-3 * size, size));
+  }
+  return longest;
+}
+
 /// Quadrilaterals between the outline, holes and footprints on the ends.
 SectionMesh plane_section(const Extruded &extruded, const std::set<int> &contacts, const MeshOptions &options)
 {
-  const DrawingPlane   plane{extruded.axes, 2, extruded.unit};
-  std::vector<Outline> outlines;
-  for (const std::vector<int> &loop : loops_of(extruded.outline))
-    outlines.push_back(of_equal_area(outline_of(loop, plane, options.size)));
-  const auto extent = [](const Outline &o) { return std::hypot(o.max[0] - o.min[0], o.max[1] - o.min[1]); };
-  const auto around = std::max_element(outlines.begin(), outlines.end(),
-                                       [&](const Outline &a, const Outline &b) { return extent(a) < extent(b); });
-  std::iter_swap(outlines.begin(), around);
-  std::vector<InnerLine> lines;
-  for (std::size_t i = 1; i < outlines.size(); ++i)
-    lines.push_back({corners_of(outlines[i]), false});
+  const DrawingPlane            plane{extruded.axes, 2, extruded.unit};
+  std::vector<std::vector<int>> loops   = loops_of(extruded.outline);
+  const std::size_t             n_holes = loops.size();
   for (const PlateFace &face : extruded.ends)
-    if (contacts.count(face.tag) > 0)
-      for (const FaceLoop &loop : face.loops)
-      {
-        Outline footprint = of_equal_area(outline_of(loop.edges, plane, options.size));
-        if (std::any_of(outlines.begin(), outlines.end(),
-                        [&](const Outline &other) { return touch(other.sides, footprint.sides); }))
-          continue;
-        lines.push_back({corners_of(footprint), true});
-        outlines.push_back(std::move(footprint));
-      }
-  return section_mesh(corners_of(outlines.front()), lines);
+    if (const FaceLoop *footprint = outer_loop(face); contacts.count(face.tag) > 0 && footprint)
+      if (std::none_of(loops.begin(), loops.end(),
+                       [&](const std::vector<int> &other)
+                       { return touch(face_loop(other, plane).sides, footprint->sides); }))
+        loops.push_back(footprint->edges);
+  const std::vector<double> longest = longest_sides(loops, plane, options.size);
+  std::vector<Outline>      outlines;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    outlines.push_back(of_equal_area(outline_of(loops[i], plane, longest[i])));
+  const auto extent = [](const Outline &o) { return std::hypot(o.max[0] - o.min[0], o.max[1] - o.min[1]); };
+  const auto around = std::max_element(outlines.begin(), outlines.begin() + static_cast<std::ptrdiff_t>(n_holes),
+                                       [&](const Outline &a, const Outline &b) { return extent(a) < extent(b); }) -
+                      outlines.begin();
+  std::vector<InnerLine> lines;
+  for (std::size_t i = 0; i < outlines.size(); ++i)
+    if (static_cast<std::ptrdiff_t>(i) != around)
+      lines.push_back({corners_of(outlines[i]), i >= n_holes});
+  return section_mesh(corners_of(outlines[around]), lines);
 }
 
 /// The face to which a point is nearest, among those that reach there; 0 for none.
@@ -233,11 +250,24 @@ std::optional<Extruded> extruded(const Solid &solid, const std::vector<Face> &al
   for (const Face &face : all)
     if (std::count(solid.faces.begin(), solid.faces.end(), face.tag) > 0)
       faces.push_back(face);
+  std::optional<Extruded> shortest;
   for (const Face &face : faces)
     if (face.kind == FaceKind::plane)
-      if (auto found = extruded_along(face.direction, solid, faces, unit))
-        return found;
-  return std::nullopt;
+      if (auto found = extruded_along(face.direction, solid, faces, unit);
+          found && (!shortest || found->to - found->from < shortest->to - shortest->from))
+        shortest = std::move(found);
+  return shortest;
+}
+
+bool carries_others(const Extruded &extruded, const std::set<int> &contacts)
+{
+  const std::set<int> around(extruded.outline.begin(), extruded.outline.end());
+  for (const PlateFace &face : extruded.ends)
+    if (contacts.count(face.tag) > 0)
+      for (const FaceLoop &loop : face.loops)
+        if (std::none_of(loop.edges.begin(), loop.edges.end(), [&](int edge) { return around.count(edge) > 0; }))
+          return true;
+  return false;
 }
 
 ExtractedMesh extruded_mesh(const Extruded &extruded, const Solid &solid, const std::set<int> &contacts,
@@ -263,14 +293,21 @@ ExtractedMesh extruded_mesh(const Extruded &extruded, const Solid &solid, const 
       if (corner_quality(mesh, mesh.n_cells() - 1) < worst_corner)
         throw NotSwept("cells of its section would fold");
     }
-  add_skin(result, head, 0,
-           [&](const std::vector<int> &corners)
-           {
-             Vector3 centre{};
-             for (const int corner : corners)
-               centre = centre + (1. / double(corners.size())) * mesh.points[corner];
-             return surface_at(extruded, centre);
-           });
+  const auto surface_of = [&](const std::vector<int> &corners)
+  {
+    Vector3 centre{};
+    for (const int corner : corners)
+      centre = centre + (1. / double(corners.size())) * mesh.points[corner];
+    return surface_at(extruded, centre);
+  };
+  try
+  {
+    add_skin(result, head, 0, surface_of);
+  }
+  catch (const std::invalid_argument &)
+  {
+    throw NotSwept("cells of its section overlap");
+  }
   return result;
 }
 

@@ -28,8 +28,12 @@ struct Extruded
   Point2                 centre{};               ///< of a tube
 };
 
-/// The solid as such, if it is one.
+/// The solid as such, if it is one: along the shortest of its axes.
 std::optional<Extruded> extruded(const Solid &solid, const std::vector<Face> &all, double unit);
+
+/// Whether another solid is on an end, with parts of it around.
+/// @param contacts  tags of faces that other solids share
+bool carries_others(const Extruded &extruded, const std::set<int> &contacts);
 
 /**
  * Hexahedra along the solid, from quadrilaterals in its section.  A tube has rings of 12 sides.  Polygons have the

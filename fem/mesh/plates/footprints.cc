@@ -62,6 +62,15 @@ bool touch(const std::vector<Side> &a, const std::vector<Side> &b)
   return false;
 }
 
+double gap_between(const std::vector<Side> &a, const std::vector<Side> &b)
+{
+  double gap = 1e300;
+  for (const Side &p : a)
+    for (const Side &q : b)
+      gap = std::min({gap, distance_to(p[0], q), distance_to(q[0], p)});
+  return gap;
+}
+
 void add_footprints(PlateSolids &solids, const std::set<int> &contacts, double unit, double diagonal)
 {
   const bool any = std::any_of(solids.faces.begin(), solids.faces.end(),
@@ -73,9 +82,9 @@ void add_footprints(PlateSolids &solids, const std::set<int> &contacts, double u
   {
     if (contacts.count(face.tag) == 0)
       continue;
-    for (const FaceLoop &loop : face.loops)
+    if (const FaceLoop *loop = outer_loop(face))
     {
-      const Outline outline  = of_equal_area(outline_of(loop.edges, {solids.axes, face.direction, unit}));
+      const Outline outline  = of_equal_area(outline_of(loop->edges, {solids.axes, face.direction, unit}));
       const auto [from, to]  = through_plate(lattice, face.direction, face.level, outline.sides.front()[0]);
       const auto overlapping = [&, from = from, to = to](const PlateHole &hole) {
         return hole.direction == face.direction && hole.from < to && from < hole.to && touch(hole.sides, outline.sides);

@@ -72,6 +72,18 @@ Axes main_axes(const std::vector<Face> &faces)
   return {a, b, cross(a, b)};
 }
 
+double extent_of(const FaceLoop &loop)
+{
+  Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+  for (const Side &side : loop.sides)
+    for (int k = 0; k < 2; ++k)
+    {
+      low[k]  = std::min({low[k], side[0][k], side[1][k]});
+      high[k] = std::max({high[k], side[0][k], side[1][k]});
+    }
+  return std::hypot(high[0] - low[0], high[1] - low[1]);
+}
+
 class Reader
 {
 public:
@@ -127,7 +139,7 @@ private:
   bool is_round_opening(const PlateFace &face, const FaceLoop &loop) const
   {
     for (const FaceLoop &other : face.loops) // the largest goes around the face
-      if (&other != &loop && extent(other) > extent(loop))
+      if (&other != &loop && extent_of(other) > extent_of(loop))
         return std::any_of(loop.edges.begin(), loop.edges.end(),
                            [&](int edge)
                            {
@@ -136,18 +148,6 @@ private:
                                                 [&](const Face *f) { return !is_plate(f->tag); });
                            });
     return false;
-  }
-
-  static double extent(const FaceLoop &loop)
-  {
-    Point2 low{1e300, 1e300}, high{-1e300, -1e300};
-    for (const Side &side : loop.sides)
-      for (int k = 0; k < 2; ++k)
-      {
-        low[k]  = std::min({low[k], side[0][k], side[1][k]});
-        high[k] = std::max({high[k], side[0][k], side[1][k]});
-      }
-    return std::hypot(high[0] - low[0], high[1] - low[1]);
   }
 
   struct Opening
@@ -261,6 +261,15 @@ private:
 };
 
 } // namespace
+
+const FaceLoop *outer_loop(const PlateFace &face)
+{
+  const FaceLoop *outer = nullptr;
+  for (const FaceLoop &loop : face.loops)
+    if (!outer || extent_of(loop) > extent_of(*outer))
+      outer = &loop;
+  return outer;
+}
 
 bool PlateSolids::contains(const PlateFace &face, const Point2 &x)
 {

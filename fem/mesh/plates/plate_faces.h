@@ -41,6 +41,9 @@ struct PlateHole
   bool              filled = false; ///< a footprint: the material continues inside
 };
 
+/// The loop around the face, which others are in; none for a face whose loop was that of a hole.
+const FaceLoop *outer_loop(const PlateFace &face);
+
 /// Solids with all faces normal to three axes, except the walls of holes.
 struct PlateSolids
 {

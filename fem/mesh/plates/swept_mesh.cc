@@ -419,6 +419,9 @@ SweptMesh swept_mesh(const CadModel &model, const PlateGroup &group, const std::
     catch (const NotSwept &) // joined to cells without sides along the footprints then
     {
     }
+    catch (const std::invalid_argument &) // cells that overlap
+    {
+    }
   return Sweeping(model, group, plain, selection, specification, options).mesh();
 }
 

@@ -49,18 +49,26 @@ public:
     for (const PartialMesh &mesh : meshes_)
       require_cells(mesh.extracted.mesh.n_cells(),
                     "swept solids have " + text(mesh.extracted.mesh.n_cells()) + " cells", options_);
-    if (!meshes_.empty())
-      meshes_.front().extracted.mesh.statements = {wall_statement(walls_, n_extruded(), others_.empty())};
-    return {std::move(meshes_), std::move(others_)};
+    std::string statement = wall_statement(walls_, n_extruded(), others_.empty());
+    return {std::move(meshes_), std::move(others_), std::move(statement)};
   }
 
 private:
   void sort(int i)
   {
-    const Solid &solid = model_.solids[i];
+    auto own = extruded(model_.solids[i], faces_, model_.unit);
+    if (own && carries_others(*own, contacts_with_others({i})) && extruded_tried_.insert(i).second)
+      extruded_[i] = std::move(own); // lines along footprints end in its section, and do not divide other walls
+    else
+      sort_wall(i);
+  }
+
+  void sort_wall(int i)
+  {
+    walls_tried_.insert(i);
     try
     {
-      const Axes axes  = plate_solids({solid}, faces_, model_.unit).axes;
+      const Axes axes  = plate_solids({model_.solids[i]}, faces_, model_.unit).axes;
       const auto group = std::find_if(axes_.begin(), axes_.end(), [&](const Axes &a) { return are_parallel(a, axes); });
       if (group == axes_.end())
       {
@@ -76,15 +84,17 @@ private:
     }
   }
 
-  /// A wall is extruded then if it can be.
+  /// A solid that fails is tried in the other way.
   void put_aside(int i, const std::string &reason)
   {
+    const bool was_extruded = bool(extruded_[i]);
     for (std::vector<int> &group : groups_)
       group.erase(std::remove(group.begin(), group.end(), i), group.end());
-    if (tried_.insert(i).second)
+    extruded_[i].reset();
+    if (was_extruded && walls_tried_.count(i) == 0)
+      return sort_wall(i);
+    if (!was_extruded && extruded_tried_.insert(i).second)
       extruded_[i] = extruded(model_.solids[i], faces_, model_.unit);
-    else
-      extruded_[i].reset();
     if (!extruded_[i])
       others_.emplace(i, reason);
   }
@@ -221,10 +231,10 @@ private:
   const FrameSpecification            &specification_;
   const MeshOptions                   &options_;
   std::vector<Face>                    faces_;
-  std::vector<std::optional<Extruded>> extruded_; // of each solid
-  std::set<int>                        tried_;    // to be extruded
-  std::vector<Axes>                    axes_;     // of groups
-  std::vector<std::vector<int>>        groups_;   // solids
+  std::vector<std::optional<Extruded>> extruded_;                     // of each solid
+  std::set<int>                        walls_tried_, extruded_tried_; // solids
+  std::vector<Axes>                    axes_;                         // of groups
+  std::vector<std::vector<int>>        groups_;                       // solids
   std::map<int, std::string>           others_;
   std::vector<PartialMesh>             meshes_;
   WallCount                            walls_;
@@ -238,8 +248,9 @@ SweptSolids sweep_solids(const CadModel &model, const Selection &selection, cons
   return Sorting(model, selection, specification, options).sorted();
 }
 
-void note_others(CadModel &model, const SweptSolids &swept, const MeshOptions &options)
+void state_solids(CadModel &model, const SweptSolids &swept, const MeshOptions &options)
 {
+  model.statements.push_back(swept.statement);
   constexpr std::size_t most = 8; // solids that are named
   std::size_t           n    = 0;
   for (const auto &[solid, reason] : swept.others)

@@ -15,7 +15,8 @@ namespace gestell::fem
 struct SweptSolids
 {
   std::vector<PartialMesh>   meshes;
-  std::map<int, std::string> others; ///< remaining solids, with the reason
+  std::map<int, std::string> others;    ///< remaining solids, with the reason
+  std::string                statement; ///< "plates are swept: ..."
 };
 
 /**
@@ -27,8 +28,8 @@ struct SweptSolids
 SweptSolids sweep_solids(const CadModel &model, const Selection &selection, const FrameSpecification &specification,
                          const MeshOptions &options);
 
-/// Notes why solids become tetrahedra although plates are to be swept.
-void note_others(CadModel &model, const SweptSolids &swept, const MeshOptions &options);
+/// States what is swept, and notes why other solids become tetrahedra.
+void state_solids(CadModel &model, const SweptSolids &swept, const MeshOptions &options);
 
 /// Removes the swept solids from gmsh.  @return the others, with the faces that bound them
 CadModel alone_in_gmsh(const CadModel &model, const SweptSolids &swept);
