@@ -244,7 +244,7 @@ TEST(Quantity, TurnsOfAShaftTimesARatioOfLengthsAreTurns)
 {
   for (const std::string text :
        {"(600 1/min)*80 mm/(200 mm)", "80 mm*(600 1/min)/(200 mm)", "80 mm/(200 mm)*600 rpm",
-        "(600 1/min)*(80 mm/(200 mm))", "(600 1/min)/(200 mm)*80 mm", "80 mm*600/min/(200 mm)"})
+        "(600 1/min)*(80 mm/(200 mm))", "(600 1/min)/(200 mm)*80 mm", "80 mm*(600/min)/(200 mm)"})
     EXPECT_NEAR(value_as(read(text), kind::angular_speed, text), 8. * pi, 1e-13) << text;
   EXPECT_NEAR(value_as(read("80 mm*(600 rpm)/(200 rpm)"), kind::length, ""), 0.24, 1e-15);
   EXPECT_NEAR(value_as(read("(600 rpm)*80 mm/(200 mm)"), kind::frequency, ""), 4., 1e-14);
