@@ -203,7 +203,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"damping   = [[", "dampin = [[", "frame: unknown key 'dampin'", "did you mean 'damping'"},
                       Mistake{"[modes]", "[modse]", "", "unknown key 'modse'; did you mean 'modes'"},
                       Mistake{"ratio             = 49", "ratoi = 49", "element.motor", "did you mean 'ratio'"},
-                      Mistake{"step = \"10 us\"", "step = \"10 us\"\nstep = 3", "", "is defined twice in this table", -1},
+                      Mistake{"step = \"10 us\"", "step = \"10 us\"\nstep = 3", "", "is defined twice in this table",
+                              -1},
                       Mistake{"step = \"10 us\"", "step = 10 us", "is not TOML here", "in quotes: \"10 us\""},
                       Mistake{"name    = \"small\"", "name = \"a/b\"", "name", "folder"}));
 
