@@ -107,7 +107,7 @@ const std::vector<Mistake> of_the_press = {
     {"CommaInANumber", {{"s_K     = 0.15", "s_K = 0,15"}}, {"decimals have a point: 0.15"}},
     {"PercentWithoutQuotes", {{"s_K     = 0.15", "s_K = 15%"}}, {"in quotes: \"15%\""}},
     {"DuplicateKey", {{"order  = 2", "order  = 2\norder = 3"}}, {"'order' is defined twice", "remove one"}},
-    {"DuplicateTable", {{"[output.signals]", "[run]\n[output.signals]"}}, {"[run] stands", "under one head"}},
+    {"DuplicateTable", {{"[output.signals]", "[run]\n[output.signals]"}}, {"[run] is defined twice", "under one head"}},
     {"CyclicParameters",
      {{"\"80 mm\"", "\"l/10\""}, {"\"800 mm\"", "\"10*r\""}},
      {"parameters.r", "depends on itself: r -> l -> r"}},

@@ -203,7 +203,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"damping   = [[", "dampin = [[", "frame: unknown key 'dampin'", "did you mean 'damping'"},
                       Mistake{"[modes]", "[modse]", "", "unknown key 'modse'; did you mean 'modes'"},
                       Mistake{"ratio             = 49", "ratoi = 49", "element.motor", "did you mean 'ratio'"},
-                      Mistake{"step = \"10 us\"", "step = \"10 us\"\nstep = 3", "", "stands twice in this table", -1},
+                      Mistake{"step = \"10 us\"", "step = \"10 us\"\nstep = 3", "", "is defined twice in this table",
+                              -1},
                       Mistake{"step = \"10 us\"", "step = 10 us", "is not TOML here", "in quotes: \"10 us\""},
                       Mistake{"name    = \"small\"", "name = \"a/b\"", "name", "folder"}));
 
@@ -231,7 +232,7 @@ INSTANTIATE_TEST_SUITE_P(
     References, SceneMistake,
     ::testing::Values(
         Mistake{"from         = \"crank\"", "from = \"crnk\"", "element.rod.from", "did you mean 'crank'"},
-        Mistake{"from         = \"crank\"", "from = \"slide\"", "element.rod.from", "is not a rotor"},
+        Mistake{"from         = \"crank\"", "from = \"slide\"", "element.rod.from", "is no rotor"},
         Mistake{"to        = \"frame.table\"", "to = \"frame.tabel\"", "element.spring.to", "did you mean 'table'"},
         Mistake{"to        = \"frame.table\"", "to = \"slide\"", "element.spring.to", "two places"},
         Mistake{"on      = \"frame.crown\"", "on = \"frame.column\"", "body.crank.on", "no interface 'column'"},
@@ -257,7 +258,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"end  = \"0.1 s\"", "end = 0", "run.end", "after 'begin'"},
         Mistake{"step = \"10 us\"", "method = \"bfd\"\nstep = 1e-5", "run.method", "did you mean 'bdf'"},
         Mistake{"[start]", "[start]\nrule = \"steady\"\nangles = { crank = 1 }\ndriver = \"slide\"", "start.driver",
-                "is not a rotor", -3},
+                "is no rotor", -3},
         Mistake{"[start]\nq = { crank = \"120 deg\", \"frame.crown.uz\" = \"-0.6 mm\" }\nv = { crank = \"30 1/min\" }",
                 "[start]\nrule = \"steady\"\nangles = { crank = 1 }", "start", "no driver"},
         Mistake{"step = \"10 us\"", "order = 7\nstep = 1e-5", "run.order", "1 to 6"},
@@ -279,7 +280,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"\"3620 kN/mm\"]]", "\"1000 kN/mm\"]]", "frame", "negative eigenvalue", 2},
         Mistake{"rows = { \"-uz\" = 2 }", "rows = { \"-uz\" = 3 }", "frame.interface.table.rows.-uz", "no row 3"},
         Mistake{"rows = { \"-uz\" = 2 }", "rows = { \"-uz\" = 1 }", "", "row 1 is crown.uz already"},
-        Mistake{"rows = { \"-uz\" = 2 }", "rows = { up = 2 }", "", "is no motion"},
+        Mistake{"rows = { \"-uz\" = 2 }", "rows = { up = 2 }", "", "is not a DOF"},
         Mistake{"[frame.interface.table]\nrows = { \"-uz\" = 2 }", "", "frame", "translations", 6},
         Mistake{"stiffness_row = [\"-3200 kN/mm\", ", "stiffness_row = [", "", "has 1 entries"}));
 

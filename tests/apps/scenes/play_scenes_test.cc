@@ -304,7 +304,7 @@ TEST(PlayScenes, RefuseWhatMakesNoSense)
   expect_complaint(with(disc, "to = \"disc\"", "to = \"ground\""), "lies on 'ground' like `from`");
   expect_complaint(with(disc, "clearance = \"0.5 mm\"", "clearance = 0"), "element.bearing.clearance");
   expect_complaint(with(disc, "radius = \"30 mm\"\n", ""), "needs 'radius' of the journal");
-  expect_complaint(with(disc, "at = [0, 0, 0]\n", ""), "needs 'at', the middle of the bearing");
+  expect_complaint(with(disc, "at = [0, 0, 0]\n", ""), "needs 'at', the centre of the bearing");
   expect_complaint(with(disc, "axis = [0, 1, 0]", "axis = [1, 0, 0]"), "across the plane of \"disc\"");
   expect_complaint(with(disc, "friction = 0.3", "friction = { coefficient = 0.3, static = 0.4 }"),
                    "needs 'static' and 'stribeck_speed' together");
