@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fem/mesh/mesh_size.h"
-#include "fem/mesh/plates/joined_meshes.h"
+#include "fem/mesh/solids/joined_meshes.h"
 #include "fem/values/frame_specification.h"
 
 #include <map>

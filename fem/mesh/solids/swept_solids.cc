@@ -1,4 +1,4 @@
-#include "fem/mesh/plates/swept_solids.h"
+#include "fem/mesh/solids/swept_solids.h"
 
 #include "fem/geometry/gmsh_faces.h"
 #include "fem/mesh/plates/extruded.h"

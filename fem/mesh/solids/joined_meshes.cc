@@ -1,4 +1,4 @@
-#include "fem/mesh/plates/joined_meshes.h"
+#include "fem/mesh/solids/joined_meshes.h"
 
 #include "fem/mesh/joined_cells.h"
 #include "fem/values/vector3.h"
