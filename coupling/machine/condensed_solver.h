@@ -1,7 +1,6 @@
 #pragma once
 
 #include "coupling/integration/system/linear_system.h"
-#include "coupling/machine/dense_base.h"
 
 #include <memory>
 #include <string>
@@ -9,6 +8,12 @@
 
 namespace gestell::coupling
 {
+
+/// The modal coordinates L of a base system: n of them, consecutive.
+struct ModalRange
+{
+  int first = 0, n = 0;
+};
 
 /// The matrices of a step by blocks.  A_LN, M_LN: their first columns, up to the last one in either that is not zero
 /// [n_L x k]; A_LL: its diagonal.

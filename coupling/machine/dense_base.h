@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/algebra/packed_matrix.h"
+#include "coupling/machine/condensed_solver.h"
 #include "coupling/machine/linear_base.h"
 
 #include <Eigen/Core>
@@ -9,12 +10,6 @@
 
 namespace gestell::coupling
 {
-
-/// The modal coordinates L of a base system: n of them, consecutive.
-struct ModalRange
-{
-  int first = 0, n = 0;
-};
 
 /**
  * Small dense base system with the structure of Craig-Bampton coordinates.  With the modal coordinates L and the others
