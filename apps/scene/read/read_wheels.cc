@@ -32,11 +32,8 @@ PlaceRequest read_wheel(const SceneTable &table, const Names &names, const std::
   const BodyRequest *body  = names.find_body(place.marker);
   if (body)
     check_turning(table, key, *body, axis);
-  if (!place.at && body && body->kind == BodyKind::rotor)
-    place.at = body->position; // on its axis
   if (!place.at && body)
-    throw table.error(key, "needs 'at_" + key + "', the axis of the wheel in the initial configuration: '" +
-                               body->name + "' is a planar body, whose `position` is its centre of mass");
+    place.at = body->position;
   if (!place.at)
     throw table.error(key, "needs 'at_" + key + "', the centre of the wheel on '" + place.marker +
                                "' in the initial configuration");
@@ -51,9 +48,9 @@ std::vector<Key> wheel_keys(const std::string &wheel)
       key::named("from", "body with one " + wheel + ": a rotor or a planar body; at rest an interface or the ground"),
       key::named("to", "body with the other " + wheel),
       key::vector("at_from", kind::length, "centre of the " + wheel + " on `from`, in the initial configuration")
-          .by_default("`position` of a rotor"),
+          .by_default("`position` of the body, for a planar body its centre of mass"),
       key::vector("at_to", kind::length, "centre of the " + wheel + " on `to`, in the initial configuration")
-          .by_default("`position` of a rotor"),
+          .by_default("`position` of the body, for a planar body its centre of mass"),
       key::direction("axis", "common axis direction; left is the left-hand side when looking from `from` to `to` with "
                              "the axis pointing to the viewer")};
 }

@@ -1,4 +1,4 @@
-// Belts at the start: slack or tight loops, and wheels on planar bodies.
+// Belts that are slack or tight at the start.
 
 #include "tests/support/scene_motion.h"
 #include "tests/support/test.h"
@@ -18,8 +18,7 @@ std::string belt(const Keys &more)
          element("drive", "belt", keys);
 }
 
-const std::string rotor_one  = rotor_body("one", "0.01 kg m^2", "[0, 1, 0]", {{"position", "[0, 0, 0]"}});
-const std::string planar_one = planar_body("one", "1 kg", "0.1 kg m^2", "[0, 0, 0]");
+const std::string rotor_one = rotor_body("one", "0.01 kg m^2", "[0, 1, 0]", {{"position", "[0, 0, 0]"}});
 
 std::string warnings(const std::string &length)
 {
@@ -34,12 +33,6 @@ TEST(BeltAtTheStart, IsReportedIfItIsSlackOrTight)
   EXPECT_EQ(warnings("1.67 m"), "");
   EXPECT_THAT(warnings("1.65 m"), ::testing::HasSubstr("stretched by 1.57 % at the start"));
   EXPECT_THAT(warnings("1.68 m"), ::testing::HasSubstr("both strands are slack at the start"));
-}
-
-TEST(BeltAtTheStart, NeedsTheAxisOfAWheelOnAPlanarBody)
-{
-  expect_complaint(planar_one + belt({{"pretension", "400 N"}}), "needs 'at_from', the axis of the wheel");
-  EXPECT_EQ(test::complaint(planar_one + belt({{"pretension", "400 N"}, {"at_from", "[0, 0, 0]"}})), "");
 }
 
 } // namespace
