@@ -139,7 +139,7 @@ TEST(ForeignFiles, ThatAreNamedByMistakeAreNotReplacedByAnFmu)
   const Folder folder("fmu_foreign");
   const auto   all = put_files(folder / "", {"notes.toml"});
   expect_answer(gestell("export " + press_scene + "--fmu '" + (folder / "notes.toml").string() + "'"), 2,
-                {"is no FMU"});
+                {"is not an FMU"});
   expect_unchanged(folder / "", all);
 }
 
