@@ -20,20 +20,21 @@ UserForce::UserForce(UserLaw law, Along along) : functions_(std::move(law)), alo
                                 "start");
 }
 
-std::string UserForce::fault() const
+std::string UserForce::fault(double t) const
 {
   const std::lock_guard lock(mutex_);
-  return fault_;
+  return lost_ || fault_at_ > t ? fault_ : "";
 }
 
-void UserForce::call(const char *role, const UserFunction &function, Numbers x, const double *state, double *y, int n_y,
-                     Numbered numbered) const
+void UserForce::call(const char *role, const UserFunction &function, Numbers x, double t, const double *state,
+                     double *y, int n_y, Numbered numbered) const
 {
   std::string fault;
+  std::fill_n(y, n_y, std::numeric_limits<double>::quiet_NaN());
   if (!lost_)
     try
     {
-      function(x, {state, n_history()}, y, n_y);
+      function(x, {state, n_state()}, y, n_y);
       if (numbered == Numbered::maybe || std::all_of(y, y + n_y, [](double number) { return std::isfinite(number); }))
         return;
       fault = "returned a value that is not a finite number";
@@ -46,14 +47,15 @@ void UserForce::call(const char *role, const UserFunction &function, Numbers x, 
   if (lost_)
     return;
   const std::lock_guard lock(mutex_);
-  fault_ = std::string("its function '") + role + "' " + fault;
-  lost_  = numbered == Numbered::yes;
+  fault_    = std::string("its function '") + role + "' " + fault;
+  fault_at_ = t;
+  lost_     = numbered == Numbered::yes;
 }
 
 double UserForce::force_at(const double *x, const double *state) const
 {
   double F;
-  call("force", functions_.force, {x, 3}, state, &F, 1, Numbered::maybe);
+  call("force", functions_.force, {x, 3}, x[0], state, &F, 1, Numbered::maybe);
   return F;
 }
 
@@ -61,7 +63,7 @@ void UserForce::slopes_at(const double *x, const double *state, double *slopes) 
 {
   if (functions_.derivative)
   {
-    call("derivative", functions_.derivative, {x, 3}, state, slopes, 2, Numbered::maybe);
+    call("derivative", functions_.derivative, {x, 3}, x[0], state, slopes, 2, Numbered::maybe);
     return;
   }
   const double     way      = std::cbrt(std::numeric_limits<double>::epsilon());
@@ -85,15 +87,38 @@ void UserForce::engaged(const double *u, double *K, double *D) const
   *D = std::isfinite(slopes[1]) ? -slopes[1] : 0.;
 }
 
-void UserForce::start(const LocalMotion &, double *history) const
+/// The numbers of all events, armed or not.
+void UserForce::values(const LocalMotion &motion, const double *history, double *g) const
 {
-  std::copy(functions_.state.begin(), functions_.state.end(), history);
+  const double x[] = {motion.t, motion.u[0], motion.v[0]};
+  if (n_events() > 0)
+    call("event_values", functions_.event_values, {x, 3}, motion.t, history, g, n_events(), Numbered::yes);
 }
 
-void UserForce::change(const char *role, const UserFunction &function, Numbers x, double *history) const
+void UserForce::start(const LocalMotion &motion, double *history) const
+{
+  std::copy(functions_.state.begin(), functions_.state.end(), history);
+  std::fill_n(history + n_state(), n_events(), 0.);
+  arm(motion, history);
+}
+
+/// Arms the events whose numbers are negative.
+void UserForce::arm(const LocalMotion &motion, double *history) const
+{
+  double *armed = history + n_state();
+  if (std::all_of(armed, armed + n_events(), [](double one) { return one != 0.; }))
+    return;
+  std::vector<double> g(functions_.events.size());
+  values(motion, history, g.data());
+  for (int i = 0; i < n_events(); ++i)
+    if (g[std::size_t(i)] < 0.)
+      armed[i] = 1.;
+}
+
+void UserForce::change(const char *role, const UserFunction &function, Numbers x, double t, double *history) const
 {
   std::vector<double> next(functions_.state.size());
-  call(role, function, x, history, next.data(), n_history(), Numbered::yes);
+  call(role, function, x, t, history, next.data(), n_state(), Numbered::yes);
   std::copy(next.begin(), next.end(), history);
 }
 
@@ -101,7 +126,8 @@ void UserForce::accept(const LocalMotion &motion, double *history) const
 {
   const double x[] = {motion.t, motion.u[0], motion.v[0]};
   if (functions_.after_step)
-    change("after_step", functions_.after_step, {x, 3}, history);
+    change("after_step", functions_.after_step, {x, 3}, motion.t, history);
+  arm(motion, history);
 }
 
 std::vector<Guard> UserForce::guards(const double *) const
@@ -114,16 +140,18 @@ std::vector<Guard> UserForce::guards(const double *) const
 
 void UserForce::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  const double x[] = {motion.t, motion.u[0], motion.v[0]};
-  if (n_events() > 0)
-    call("event_values", functions_.event_values, {x, 3}, history, g, n_events(), Numbered::yes);
+  values(motion, history, g);
+  for (int i = 0; i < n_events(); ++i)
+    if (history[n_state() + i] == 0.)
+      g[i] = -1.;
 }
 
 void UserForce::transition(int i, const LocalMotion &motion, double *history) const
 {
-  const double x[] = {double(i), motion.t, motion.u[0], motion.v[0]};
+  const double x[]       = {double(i), motion.t, motion.u[0], motion.v[0]};
+  history[n_state() + i] = 0.;
   if (functions_.at_event)
-    change("at_event", functions_.at_event, {x, 4}, history);
+    change("at_event", functions_.at_event, {x, 4}, motion.t, history);
 }
 
 std::vector<Quantity> UserForce::quantities() const

@@ -18,8 +18,9 @@ namespace gestell::mechanism
  * |x| / l)^2 / 6 for a law that bends over the length l, plus 1e-10.  It costs four more calls of `force` per tangent.
  *
  * Where a function throws, the law has no value, which a shorter step may avoid, as with a force that is not a number;
- * fault() has the reason.  A state or an event value without a number is lost for good: then the law has no value any
- * more, which ends a run.
+ * fault() has the reason.  An event occurs where its number rises through zero: it is armed while its number is
+ * negative, and disarmed by the event itself.  A state or an event value without a number is lost for good: then the
+ * law has no value any more, which ends a run.
  *
  * As FormulaForce its work is input; as structure it has K = -dF/du and D = -dF/du' at the given u, at t = 0, at rest,
  * in the state of the start.  Functions may be called by several threads at once.
@@ -51,14 +52,15 @@ public:
     }
   }
 
-  std::string fault() const; ///< why the last failed function did so; empty: none failed
+  /// Why a function failed after the instant t, or lost the state; empty: none did.
+  std::string fault(double t) const;
 
   void engaged(const double *u, double *K, double *D) const override;
   bool stiffens() const override { return true; } ///< possibly; a function is arbitrary
 
-  /// Only with a state or events; history: the state.
+  /// Only with a state or events; history: the state, then for each event 1 if it is armed, else 0.
   const Branches       *branches() const override { return n_history() + n_events() > 0 ? this : nullptr; }
-  int                   n_history() const override { return int(functions_.state.size()); }
+  int                   n_history() const override { return n_state() + n_events(); }
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  accept(const LocalMotion &motion, double *history) const override;
   Work                  work() const override { return Work::input; }
@@ -75,17 +77,21 @@ private:
     yes, ///< what is not a number is a fault
     maybe
   };
+  int    n_state() const { return int(functions_.state.size()); }
   int    n_events() const { return int(functions_.events.size()); }
   double force_at(const double *x, const double *state) const;
   void   slopes_at(const double *x, const double *state, double *slopes) const;
-  void   change(const char *role, const UserFunction &function, Numbers x, double *history) const;
-  void   call(const char *role, const UserFunction &function, Numbers x, const double *state, double *y, int n_y,
-              Numbered numbered) const;
+  void   arm(const LocalMotion &motion, double *history) const;
+  void   values(const LocalMotion &motion, const double *history, double *g) const;
+  void   change(const char *role, const UserFunction &function, Numbers x, double t, double *history) const;
+  void   call(const char *role, const UserFunction &function, Numbers x, double t, const double *state, double *y,
+              int n_y, Numbered numbered) const;
 
   UserLaw                   functions_;
   Along                     along_;
   mutable std::mutex        mutex_;
-  mutable std::string       fault_; ///< guarded by mutex_
+  mutable std::string       fault_;         ///< guarded by mutex_
+  mutable double            fault_at_ = 0.; ///< its t, guarded by mutex_
   mutable std::atomic<bool> lost_{false};
 };
 

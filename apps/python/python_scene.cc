@@ -113,11 +113,23 @@ py::object computation_failed(const std::string &why)
   return py::module_::import("_gestell").attr("ComputationFailed")(why);
 }
 
+/// Ctrl-C and sys.exit() in a function are not failures of it.
+void raise_if_it_ends_the_program(const py::object &raised)
+{
+  if (raised.is_none() || PyObject_IsInstance(raised.ptr(), PyExc_Exception) == 1)
+    return;
+  PyErr_SetObject(reinterpret_cast<PyObject *>(Py_TYPE(raised.ptr())), raised.ptr());
+  throw py::error_already_set();
+}
+
 /// Raises a failure that is caused by what a function of the scene raised, if one did.
 void raise_cause(const std::string &why, const SceneNode &root, const std::shared_ptr<PythonResult> &result)
 {
   if (const py::object cause = take_raised(root); !cause.is_none())
+  {
+    raise_if_it_ends_the_program(cause);
     raise_with(computation_failed(why + "\n" + traceback_text(cause)), result, cause);
+  }
 }
 
 /// Why a run is none, as an exception that has what was computed; caused by what a function of the scene raised.
@@ -127,7 +139,13 @@ void raise_failure(const std::shared_ptr<PythonResult> &result, const SceneNode 
   if (run && run->interrupted)
     raise_with(py::reinterpret_borrow<py::object>(PyExc_KeyboardInterrupt)(), result, py::none());
   if (run && !run->failure.empty())
-    raise_with(computation_failed(run->failure), result, take_raised(root));
+  {
+    py::object cause = take_raised(root);
+    raise_if_it_ends_the_program(cause);
+    if (!cause.is_none() && run->failure.find(traceback_text(cause)) == std::string::npos)
+      cause = py::none(); // it was overcome: a shorter step had a value
+    raise_with(computation_failed(run->failure), result, cause);
+  }
 }
 
 /// Computes without the lock of the interpreter: `compute` has a scene of its own, as others may change theirs.  Ctrl-C

@@ -22,12 +22,15 @@ def place() -> pathlib.Path:
     return pathlib.Path(site.getusersitepackages()) / "gestell.pth"
 
 
-def import_error() -> str:
-    """Why a new Python cannot import the module; empty: it can."""
+def import_error(folder: pathlib.Path) -> str:
+    """Why a new Python does not import the module from the folder; empty: it does."""
     variables = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     tried = subprocess.run([sys.executable, "-c", "import gestell; print(gestell.__file__)"], cwd="/", env=variables,
                            capture_output=True, text=True)
-    return tried.stderr.strip()[-500:]
+    if tried.returncode != 0:
+        return tried.stderr.strip()[-500:] or f"it ended with {tried.returncode}"
+    found = pathlib.Path(tried.stdout.strip()).parent
+    return "" if found.resolve() == folder else f"it finds the module of {found}"
 
 
 def main(argument: str) -> int:
@@ -40,7 +43,7 @@ def main(argument: str) -> int:
     before = link.read_text().strip() if link.exists() else ""
     link.parent.mkdir(parents=True, exist_ok=True)
     link.write_text(f"{folder}\n")
-    if error := import_error():
+    if error := import_error(folder):
         link.write_text(before + "\n") if before else link.unlink()
         print(f"Python: {sys.executable} cannot import gestell from {folder}:\n{error}", file=sys.stderr)
         return 1

@@ -52,8 +52,11 @@ void take_numbers(const py::object &result, double *y, int n_y)
     refuse(needed);
   }
   const auto items = py::reinterpret_steal<py::object>(PySequence_Fast(result.ptr(), ""));
-  for (int i = 0; i < n_y; ++i)
-    y[i] = PyFloat_AsDouble(PySequence_Fast_GET_ITEM(items.ptr(), i));
+  if (items && PySequence_Fast_GET_SIZE(items.ptr()) == n_y)
+    for (int i = 0; i < n_y && !PyErr_Occurred(); ++i)
+      y[i] = PyFloat_AsDouble(PySequence_Fast_GET_ITEM(items.ptr(), i));
+  else if (!PyErr_Occurred())
+    refuse(needed);
   if (PyErr_Occurred())
   {
     PyErr_Clear();

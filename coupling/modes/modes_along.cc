@@ -159,8 +159,24 @@ private:
     return last;
   }
 
-  /// Assembles in steps, which keep a linkage on its branch, or directly if an obstacle prevents that.
+  /// The deflection of the frame at the last position may hold bodies of a plane apart at the next: they are then
+  /// assembled on the undeformed frame.
   InitialState assembled(double x, const Position &from)
+  {
+    try
+    {
+      return assembled_on_its_frame(x, from);
+    }
+    catch (const std::invalid_argument &)
+    {
+      Position undeformed = from;
+      undeformed.state.q.head(machine_.model().n_frame()).setZero();
+      return assembled_on_its_frame(x, undeformed);
+    }
+  }
+
+  /// Assembles in steps, which keep a linkage on its branch, or directly if an obstacle prevents that.
+  InitialState assembled_on_its_frame(double x, const Position &from)
   {
     // [rad] of a step on the way to a position: 5 degrees, in which Newton's method follows joints
     constexpr double longest_turn = 0.09;

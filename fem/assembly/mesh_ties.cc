@@ -12,6 +12,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -54,6 +55,8 @@ public:
       corners_.col(k) = point_of(mesh, mesh.nodes(cell)[k]);
       box_.extend(Eigen::Vector3d(corners_.col(k)));
     }
+    origin_ = corners_.col(0);
+    corners_.colwise() -= origin_; // far from the origin rounding would stop Newton's method
     for (int d = 0; d < 3; ++d)
       length_[d] = derivatives(Eigen::Vector3d::Constant(0.5)).col(d).norm();
   }
@@ -68,7 +71,7 @@ public:
     constexpr double converged = 1e-12, on_face = 1e-11; // functions that vanish on a face do so exactly
     for (int i = 0; i < most; ++i)
     {
-      const Eigen::Vector3d step = derivatives(xi).partialPivLu().solve(x - at(xi));
+      const Eigen::Vector3d step = derivatives(xi).partialPivLu().solve(x - origin_ - at(xi));
       xi += step;
       if (step.cwiseAbs().maxCoeff() < converged)
         return xi.unaryExpr([](double c) { return std::abs(c - std::round(c)) < on_face ? std::round(c) : c; });
@@ -107,7 +110,8 @@ private:
     return x;
   }
 
-  Eigen::Matrix<double, 3, 8> corners_;
+  Eigen::Vector3d             origin_;
+  Eigen::Matrix<double, 3, 8> corners_; ///< from the origin_
   Eigen::AlignedBox3d         box_;
   Eigen::Vector3d             length_;
 };
@@ -116,7 +120,7 @@ private:
 class Leaders
 {
 public:
-  Leaders(const QuadraticMesh &mesh, const QuadraticTie &tie) : cells_(tie.cells)
+  Leaders(const QuadraticMesh &mesh, const QuadraticTie &tie) : solids_(tie.solids), cells_(tie.cells)
   {
     for (const int cell : tie.cells)
     {
@@ -133,7 +137,7 @@ public:
   {
     std::size_t     own = 0;
     Eigen::Vector3d xi  = Eigen::Vector3d::Zero();
-    point.gap           = 1e300;
+    point.gap           = nowhere;
     for (std::size_t i = 0; i < shapes_.size() && point.gap > 0.; ++i)
       if (shapes_[i].distance_of_box(x) < point.gap)
         if (const auto place = shapes_[i].place(x); place && shapes_[i].beyond(*place) < point.gap)
@@ -142,6 +146,14 @@ public:
           own       = i;
           xi        = *place;
         }
+    if (!(point.gap < nowhere))
+    {
+      std::ostringstream message;
+      message << "solids \"" << solids_[0] << "\" and \"" << solids_[1]
+              << "\" cannot be tied: no cell has a place for (" << x.transpose()
+              << ") m; give the surface between them a smaller size";
+      throw std::runtime_error(message.str());
+    }
     point.cell    = cells_[own];
     point.leading = functions_at(xi);
     Eigen::Matrix<double, 27, 3> local;
@@ -151,8 +163,11 @@ public:
   }
 
 private:
-  const std::vector<int> &cells_;
-  std::vector<Hexahedron> shapes_;
+  static constexpr double nowhere = 1e300; ///< gap [m] before a place is found
+
+  std::array<std::string, 2> solids_;
+  const std::vector<int>    &cells_;
+  std::vector<Hexahedron>    shapes_;
 };
 
 template <std::size_t n>

@@ -90,10 +90,30 @@ TEST(UserForce, HasTheStateAndEventsOfItsFunctions)
   EXPECT_EQ(own.guards(history.data())[1].kind, "returns");
   EXPECT_LT(past(own, 0, probe1(0., 0.3), history.data()), 0.);
   EXPECT_GT(past(own, 0, probe1(0.2, 0.3), history.data()), 0.);
+  EXPECT_LT(past(own, 1, probe1(0., 0.3), history.data()), 0.) << "its number did not rise through zero";
   own.accept(probe1(0., 0.3).motion(), history.data());
   own.transition(1, probe1(0.1, 0.3).motion(), history.data());
   EXPECT_EQ(history.head(2), Eigen::Vector2d(0.3, 11.));
   EXPECT_DOUBLE_EQ(force(own, probe1(0., 0.), history.data())[0], 11.3);
+}
+
+/// Without a function that changes its number, an event occurs once, and again after the number was negative.
+TEST(UserForce, AnEventOccursWhereItsNumberRises)
+{
+  UserLaw law;
+  law.events       = {"passes"};
+  law.force        = [](Numbers, Numbers, double *y, int) { y[0] = 0.; };
+  law.event_values = [](Numbers x, Numbers, double *y, int) { y[0] = x.begin[1] - 0.1; };
+  const UserForce own(law);
+  Eigen::VectorXd history = started(own, probe1(0., 0.));
+  const auto      at      = [&](double u) { return past(own, 0, probe1(u, 0.), history.data()); };
+  EXPECT_GT(at(0.2), 0.);
+  own.transition(0, probe1(0.1, 0.).motion(), history.data());
+  EXPECT_LT(at(0.2), 0.);
+  own.accept(probe1(0.2, 0.).motion(), history.data());
+  EXPECT_LT(at(0.2), 0.);
+  own.accept(probe1(0.05, 0.).motion(), history.data());
+  EXPECT_GT(at(0.2), 0.);
 }
 
 TEST(UserForce, HasNoValueWhereAFunctionThrows)
@@ -106,10 +126,11 @@ TEST(UserForce, HasNoValueWhereAFunctionThrows)
       throw std::runtime_error("raised");
   };
   const UserForce own(law);
-  EXPECT_EQ(own.fault(), "");
+  EXPECT_EQ(own.fault(-1.), "");
   EXPECT_TRUE(std::isnan(force(own, probe1(2., 0.), nullptr)[0]));
   EXPECT_EQ(force(own, probe1(0., 0.), nullptr)[0], 3.);
-  EXPECT_EQ(own.fault(), "its function 'force' raised");
+  EXPECT_EQ(own.fault(-1.), "its function 'force' raised");
+  EXPECT_EQ(own.fault(0.), "") << "a step beyond that instant had a value";
 }
 
 TEST(UserForce, HasNoValueAnyMoreOnceItsStateIsLost)
@@ -119,11 +140,11 @@ TEST(UserForce, HasNoValueAnyMoreOnceItsStateIsLost)
   law.force      = [](Numbers, Numbers, double *y, int) { y[0] = 3.; };
   law.after_step = [](Numbers, Numbers, double *, int) { throw std::runtime_error("raised"); };
   const UserForce own(law);
-  double          state = 0.;
+  double          state = 0.; // without events
   EXPECT_EQ(force(own, probe1(0., 0.), &state)[0], 3.);
   own.accept(probe1(0., 0.).motion(), &state);
   EXPECT_TRUE(std::isnan(force(own, probe1(0., 0.), &state)[0]));
-  EXPECT_EQ(own.fault(), "its function 'after_step' raised");
+  EXPECT_EQ(own.fault(-1.), "its function 'after_step' raised");
 }
 
 TEST(UserForce, MayBeUndefinedAtSomePoints)
@@ -133,7 +154,7 @@ TEST(UserForce, MayBeUndefinedAtSomePoints)
   const UserForce own(law);
   EXPECT_TRUE(std::isnan(force(own, probe1(-1., 0.), nullptr)[0]));
   EXPECT_EQ(force(own, probe1(4., 0.), nullptr)[0], 2.);
-  EXPECT_EQ(own.fault(), "");
+  EXPECT_EQ(own.fault(-1.), "");
 }
 
 TEST(UserForce, RefusesFunctionsThatDoNotBelongTogether)

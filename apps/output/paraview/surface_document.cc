@@ -14,6 +14,7 @@
 #include <vtkZLibDataCompressor.h>
 
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -42,6 +43,8 @@ std::string type_name(const vtkDataArray &array)
 /// A compressed array as files of VTK have it: numbers of blocks and bytes, then a single block.
 std::string compressed(const char *bytes, std::size_t size)
 {
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    throw std::runtime_error("an array of " + std::to_string(size) + " bytes is too large for a ParaView file");
   vtkNew<vtkZLibDataCompressor> compressor;
   compressor->SetCompressionLevel(1); // the fastest: higher ones gain 3 %
   std::string block(compressor->GetMaximumCompressionSpace(size), '\0');

@@ -214,19 +214,20 @@ std::vector<std::unique_ptr<RunObserver>> run_checks(Machine &machine, const Mot
   return checks;
 }
 
-std::string faults_of(const Machine &machine)
+/// Functions that failed after t.
+std::string faults_of(const Machine &machine, double t)
 {
   std::string text;
   for (const ElementPlacement &placement : machine.model().elements())
     if (const auto *law = law_of<mechanism::UserForce>(placement))
-      if (const std::string fault = law->fault(); !fault.empty())
+      if (const std::string fault = law->fault(t); !fault.empty())
         text += ".  In \"" + placement.name + "\" " + fault;
   return text;
 }
 
 std::string advice_on_failure(const Machine &machine, const MethodOptions &method, const Instant &last)
 {
-  std::string text = faults_of(machine);
+  std::string text = faults_of(machine, last.t);
   if (!text.empty())
     return text;
   if (const std::string joint = ConstraintRank::at(machine, last.t, last.q).nearly_dependent(); !joint.empty())
