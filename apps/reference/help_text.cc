@@ -143,7 +143,7 @@ std::string help_text(const std::string &topic)
   if (topic.empty())
     return list_of_tables();
   const std::string named = under_name(topic), related = under_synonym(topic);
-  if (named.empty() && related.empty() && topic.find(' ') != std::string::npos)
+  if (named.empty() && related.empty())
     if (const std::string answers = question_lines(topic); !answers.empty())
       return answers;
   if (named.empty() && related.empty())

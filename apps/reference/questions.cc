@@ -35,7 +35,7 @@ const std::vector<Question> &questions()
       {"What force acts in a joint, a rod, a bearing?", "run SCENE"},
       {"What motion, torque or stress, when is it largest?", "run SCENE"},
       {"What steady state does the machine reach, is it stable?", "periodic SCENE"},
-      {"At what speed does it resonate or jump?", "periodic SCENE --along KEY --from A --to B"},
+      {"At which speed is there a resonance or a jump?", "periodic SCENE --along KEY --from A --to B"},
       {"Which natural frequency, which mode shape?", "modes SCENE"},
       {"Which frequency in which position of the machine?", "modes SCENE --along COORDINATE"},
       {"Which frequency answers a vibrating force, how much?", "frf SCENE --from A --to B"},
@@ -49,7 +49,8 @@ const std::vector<Question> &questions()
       {"What do two designs differ in?", "run SCENE --compare OTHER"},
       {"Which dimension is best?", "study STUDY"},
       {"What does it look like in motion?", "show DIR"},
-      {"How does it run in another program?", "export SCENE --fmu FILE"},
+      {"How do I import a frame of Nastran or another program?", "help frame"},
+      {"How does it run in another program, as an FMU?", "export SCENE --fmu FILE"},
       {"What does a key mean?", "help KEY"},
   };
   return all;
