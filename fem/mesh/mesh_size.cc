@@ -170,10 +170,10 @@ std::vector<double> surface_size_fields(const CadModel &model, const MeshOptions
 
 void remove_size_fields()
 {
-  std::vector<int> tags;
-  gmsh::model::mesh::field::list(tags);
-  for (const int tag : tags)
-    gmsh::model::mesh::field::remove(tag);
+  namespace field = gmsh::model::mesh::field;
+  const int next  = field::add("Min"); // fields are counted from 1
+  for (int tag = 1; tag <= next; ++tag)
+    field::remove(tag);
 }
 
 void set_smallest_as_background(const std::vector<double> &fields)
