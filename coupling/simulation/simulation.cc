@@ -126,7 +126,8 @@ EventOptions event_options(const RunOptions &options, double still)
 void fail_at_start(const ConvergenceFailure &failure, const Machine &machine, RunResult &result)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  result.failure        = std::string("the machine does not start: ") + failure.what() + faults_of(machine);
+  result.failure        = std::string("the machine does not start: ") + failure.what() +
+                   faults_of(machine, -std::numeric_limits<double>::infinity());
   for (SignalSummary &signal : result.signals)
     signal.min = signal.t_min = signal.max = signal.t_max = signal.final = none;
 }

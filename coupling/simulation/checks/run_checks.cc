@@ -214,7 +214,6 @@ std::vector<std::unique_ptr<RunObserver>> run_checks(Machine &machine, const Mot
   return checks;
 }
 
-/// Functions that failed after t.
 std::string faults_of(const Machine &machine, double t)
 {
   std::string text;

@@ -24,8 +24,8 @@ std::vector<std::unique_ptr<RunObserver>> run_checks(Machine &machine, const Mot
                                                      const InitialState &initial, const RunOptions &options,
                                                      const MethodOptions &method);
 
-/// What functions of the calling program have thrown, in force laws, for messages; empty: nothing.
-std::string faults_of(const Machine &machine);
+/// Failures of functions of the calling program after t, in force laws, for messages; empty: none.
+std::string faults_of(const Machine &machine, double t);
 
 /// Possible causes of a failed step, for its message; empty: none is known.
 std::string advice_on_failure(const Machine &machine, const MethodOptions &method, const Instant &last);
