@@ -49,6 +49,19 @@ class Laws(unittest.TestCase):
                 sign = -1. if name == "F_u" else 1.  # what acts on the slide, not what it presses with
                 np.testing.assert_allclose(sign * own[name], built_in[name], rtol=0., atol=1e-9 * abs(built_in[name]).max(), err_msg=name)
 
+    def test_have_an_event_at_every_rise_of_its_number(self):
+        def count(event, t, u, v, s):
+            return [s[0] + 1.]
+
+        own = oscillator(force=lambda t, u, v, s: -4000. * u, derivative=lambda t, u, v, s: (-4000., 0.), state=[0.],
+                         events=["up"], event_values=lambda t, u, v, s: u, at_event=count)
+        rises = [(1.5 + 2. * k) * math.pi / 20. for k in range(6)]  # of 5 mm cos(20 t)
+        for run in ({"tolerance": 1e-9}, {"method": "newmark", "step": "1 ms"}):
+            times = [event.t for event in own.copy().add("run", **run).run(end="2 s").events]
+            self.assertEqual(len(times), len(rises))
+            for time, rise in zip(times, rises):  # the period of Newmark's method is (omega h)^2/12 too long
+                self.assertAlmostEqual(time, rise, delta=1e-4)
+
     def test_without_derivatives_do_not_change_the_press(self):
         scene = gestell.example("press_minimal").set("run.end", "0.2 s")
         exact, differences = with_python_blanking(scene).run(lean=True), with_python_blanking(scene, derivative=False).run(lean=True)
