@@ -137,4 +137,12 @@ void bind_errors(py::module_ &module)
       });
 }
 
+void raise_if_it_ends_the_program(const py::object &raised)
+{
+  if (raised.is_none() || PyObject_IsInstance(raised.ptr(), PyExc_Exception) == 1)
+    return;
+  PyErr_SetObject(reinterpret_cast<PyObject *>(Py_TYPE(raised.ptr())), raised.ptr());
+  throw py::error_already_set();
+}
+
 } // namespace gestell::python

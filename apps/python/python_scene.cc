@@ -113,15 +113,6 @@ py::object computation_failed(const std::string &why)
   return py::module_::import("_gestell").attr("ComputationFailed")(why);
 }
 
-/// Ctrl-C and sys.exit() in a function are not failures of it.
-void raise_if_it_ends_the_program(const py::object &raised)
-{
-  if (raised.is_none() || PyObject_IsInstance(raised.ptr(), PyExc_Exception) == 1)
-    return;
-  PyErr_SetObject(reinterpret_cast<PyObject *>(Py_TYPE(raised.ptr())), raised.ptr());
-  throw py::error_already_set();
-}
-
 /// Raises a failure that is caused by what a function of the scene raised, if one did.
 void raise_cause(const std::string &why, const SceneNode &root, const std::shared_ptr<PythonResult> &result)
 {
