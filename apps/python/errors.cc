@@ -137,6 +137,11 @@ void bind_errors(py::module_ &module)
       });
 }
 
+py::object computation_failed(const std::string &why)
+{
+  return py::module_::import("_gestell").attr("ComputationFailed")(why);
+}
+
 void raise_if_it_ends_the_program(const py::object &raised)
 {
   if (raised.is_none() || PyObject_IsInstance(raised.ptr(), PyExc_Exception) == 1)

@@ -26,6 +26,8 @@ std::string in_python(std::string message);
 /// Binds InputError, SceneError and ComputationFailed, to which exceptions of the program are converted.
 void bind_errors(pybind11::module_ &module);
 
+pybind11::object computation_failed(const std::string &why);
+
 /// Ctrl-C and sys.exit() in a function are not failures of it: raises them.
 void raise_if_it_ends_the_program(const pybind11::object &raised);
 

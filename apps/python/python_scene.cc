@@ -1,4 +1,5 @@
 #include "apps/python/python_scene.h"
+#include "apps/python/errors.h"
 
 #include "apps/analysis/analyses.h"
 #include "apps/analysis/frf/state_space_answer.h"
@@ -106,11 +107,6 @@ std::shared_ptr<const coupling::ReducedFrame> shared_frame(const Scene &scene, c
     error.attr("__cause__") = cause;
   PyErr_SetObject(reinterpret_cast<PyObject *>(Py_TYPE(error.ptr())), error.ptr());
   throw py::error_already_set();
-}
-
-py::object computation_failed(const std::string &why)
-{
-  return py::module_::import("_gestell").attr("ComputationFailed")(why);
 }
 
 /// Raises a failure that is caused by what a function of the scene raised, if one did.
