@@ -1,10 +1,10 @@
 #include "apps/python/python_scene.h"
-#include "apps/python/errors.h"
 
 #include "apps/analysis/analyses.h"
 #include "apps/analysis/frf/state_space_answer.h"
 #include "apps/atlas/scene_stability.h"
 #include "apps/python/callback_progress.h"
+#include "apps/python/errors.h"
 #include "apps/python/interruptible.h"
 #include "apps/python/scene_values.h"
 #include "apps/python/user_functions.h"
