@@ -269,7 +269,7 @@ TEST(FormulaForceElement, RefusesWhatMakesNoSense)
 
 TEST(FormulaForceElement, ThatFallsOverTheRateIsDryFrictionThatChatters)
 {
-  const SceneRun motion = run(formula_slider + law("-20 N*sign(v)"), {"run.step=0.1 ms"});
+  const SceneRun motion = run(formula_slider + law("-20 N*sign(v)"), {"run.step=0.1 ms", "run.end=0.15 s"});
   EXPECT_NEAR(time_of(motion, "sign_1_falls"), 0.1, 1e-9);
   EXPECT_NEAR(motion.signal("v").final, 0., 2. * 10. * 1e-4); // to and fro within a step
   EXPECT_NEAR(motion.signal("x").final, 0.05, 1e-4);
