@@ -14,7 +14,7 @@ import sysconfig
 
 
 def place() -> pathlib.Path:
-    """Where Python looks for .pth files that its user may write."""
+    """Where Python reads .pth files that its user may write."""
     if sys.prefix != sys.base_prefix:
         return pathlib.Path(sysconfig.get_paths()["purelib"]) / "gestell.pth"
     if not site.ENABLE_USER_SITE:

@@ -46,7 +46,7 @@ void write_name_files(OwnFolder &folder, const Result &result, const std::vector
   for (const std::size_t k : pictures)
   {
     std::vector<Shape> shapes = mechanism_shapes(result.scenery, result.run->picture_states[k]);
-    if (!result.scenery.pins.empty()) // they come last, all in one shape, and are no body
+    if (!result.scenery.pins.empty()) // the last shape has all pins, which are not a body
       shapes.pop_back();
     const auto is_empty = [](const Shape &shape) { return shape.points.empty(); };
     shapes.erase(std::remove_if(shapes.begin(), shapes.end(), is_empty), shapes.end());

@@ -285,7 +285,7 @@ void write_motion(OwnFolder &folder, const Result &result, std::vector<std::stri
   Collection        collection, tried;
   const double      others = bytes_of(folder, names);
   const std::size_t before = names.size();
-  // The last picture tells what one takes, in the place of the first, whose displacements may be zero.
+  // The last picture gives the size of one; the displacements of the first may be zero.
   write_picture(folder, result, result.run->picture_states.size() - 1, 0, frame, tried, names);
   const std::vector<std::size_t> pictures =
       pictures_of_motion(result, std::max(1., bytes_of(folder, names) - others), others);

@@ -88,6 +88,7 @@ private:
   void         multistep(double t);
   void         start_value(double t);
   void         euler_chain(const Point &from, double length, int n, Point &to);
+  void         euler_step(const Point &from, double length, Point &to);
   void         divided_step(const Point &from, double length, int halvings, Point &to);
   void         predict(Eigen::VectorXd Point::*x, Eigen::VectorXd Point::*rate, Eigen::VectorXd &to) const;
   void         formula_step(int order, const Point *const *past, double t, double step, Point &to);

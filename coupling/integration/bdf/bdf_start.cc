@@ -16,6 +16,17 @@ namespace
 }
 } // namespace
 
+/// Implicit Euler; the prediction is that of a constant rate.
+void Bdf::euler_step(const Point &from, double length, Point &to)
+{
+  const Point *points[] = {&from};
+  local_.u              = from.u + length * from.u_rate;
+  if (implicit_.is_sparse())
+    to.q = from.q + length * from.v;
+  load(from.t + length);
+  formula_step(1, points, from.t + length, length, to);
+}
+
 void Bdf::divided_step(const Point &from, double length, int halvings, Point &to)
 {
   const double half   = 0.5 * length;
@@ -23,17 +34,12 @@ void Bdf::divided_step(const Point &from, double length, int halvings, Point &to
   Point        middle = from;
   for (int part = 0; part < 2; ++part)
   {
-    const Point *begin    = part == 0 ? &start : &middle;
-    Point       &end      = part == 0 ? middle : to;
-    const Point  base     = *begin;
-    const Point *points[] = {&base};
+    const Point *begin = part == 0 ? &start : &middle;
+    Point       &end   = part == 0 ? middle : to;
+    const Point  base  = *begin;
     try
     {
-      local_.u = base.u + half * base.u_rate;
-      if (implicit_.is_sparse())
-        end.q = base.q + half * base.v;
-      load(base.t + half);
-      formula_step(1, points, base.t + half, half, end);
+      euler_step(base, half, end);
     }
     catch (const ConvergenceFailure &failure)
     {
@@ -51,14 +57,9 @@ void Bdf::euler_chain(const Point &from, double length, int n, Point &to)
   const double step = length / n;
   for (int i = 0; i < n; ++i)
   {
-    const Point *points[] = {&base};
     try
     {
-      local_.u = base.u + step * base.u_rate;
-      if (implicit_.is_sparse())
-        to.q = base.q + step * base.v;
-      load(base.t + step);
-      formula_step(1, points, base.t + step, step, to);
+      euler_step(base, step, to);
     }
     catch (const ConvergenceFailure &)
     {
