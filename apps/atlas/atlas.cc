@@ -85,7 +85,7 @@ std::string atlas_markdown(const std::vector<AtlasEntry> &entries, const std::st
       "and Newton's method solves for the forces.\n";
   for (const AtlasEntry &entry : entries)
   {
-    text += "\n<a id=\"" + entry.id + "\"></a>\n\n## " + entry.title + "\n\n" + entry.text + "\n\n";
+    text += "\n## " + entry.title + "\n\n" + entry.text + "\n\n";
     for (const NamedSvg &figure : entry.figures)
       text += "![" + entry.title + "](" + figures + "/" + figure.name + ".svg)\n\n";
     if (!entry.table.empty())

@@ -198,19 +198,22 @@ std::string cell(std::string text)
   return text;
 }
 
-/// One row for each check; the name of the case is in its first row.
-std::string rows_in_document(const ReferenceCase &one, const CaseOutcome &outcome)
+/// One row: a line in each cell for each check.
+std::string row_in_document(const ReferenceCase &one, const CaseOutcome &outcome)
 {
-  std::string text;
+  std::string names, expected, obtained, errors, allowed;
   for (std::size_t j = 0; j < one.checks.size(); ++j)
   {
-    const Check        &check = one.checks[j];
-    const CheckOutcome &out   = outcome.checks[j];
-    text += "| " + (j == 0 ? cell(one.name) : "") + " | " + cell(name_with_count(check, out)) + " | " + out.expected +
-            " | " + out.obtained + " | " + short_text(out.error, 2) + " | " + short_text(out.allowed, 2) +
-            (out.passed ? "" : " " + cell(verdict(out))) + " |\n";
+    const CheckOutcome &out = outcome.checks[j];
+    const std::string   end = j + 1 < one.checks.size() ? "<br>" : "";
+    names += cell(name_with_count(one.checks[j], out)) + end;
+    expected += out.expected + end;
+    obtained += out.obtained + end;
+    errors += short_text(out.error, 2) + end;
+    allowed += short_text(out.allowed, 2) + (out.passed ? "" : " " + cell(verdict(out))) + end;
   }
-  return text;
+  return "| " + cell(one.name) + " | " + names + " | " + expected + " | " + obtained + " | " + errors + " | " +
+         allowed + " |\n";
 }
 
 /// One item for each case: statement, equation, scene, and the source of its expected values.
@@ -228,7 +231,7 @@ std::string file_in_document(const VerifiedFile &file)
   std::string rows, items;
   for (std::size_t i = 0; i < file.file.cases.size(); ++i)
   {
-    rows += rows_in_document(file.file.cases[i], file.outcomes[i]);
+    rows += row_in_document(file.file.cases[i], file.outcomes[i]);
     items += item_in_document(file.file.cases[i]);
   }
   return "## " + file.file.title + "\n\n" + (file.file.lead.empty() ? "" : file.file.lead + "\n\n") +
