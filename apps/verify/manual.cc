@@ -216,27 +216,42 @@ std::string row_in_document(const ReferenceCase &one, const CaseOutcome &outcome
          allowed + " |\n";
 }
 
-/// One item for each case: statement, equation, scene, and the source of its expected values.
-std::string item_in_document(const ReferenceCase &one)
+/// Statement and equation of a case, and the source of its expected values.
+std::pair<std::string, std::string> text_in_document(const ReferenceCase &one)
 {
-  std::string text = "- **" + one.name + "**. " + one.states + (one.equation.empty() ? "" : " " + one.equation + ".") +
-                     " `" + data_of(one) + "`.";
+  std::string notes;
   for (const std::string &note : notes_of(one))
-    text += " " + note;
-  return text + "\n";
+    notes += " " + note;
+  return {one.states + (one.equation.empty() ? "" : " " + one.equation + "."), notes};
+}
+
+/// One item for each sequence of cases with the same text: their names, the text, their scenes.
+std::string items_in_document(const std::vector<ReferenceCase> &cases)
+{
+  std::string text, names, data;
+  for (std::size_t i = 0; i < cases.size(); ++i)
+  {
+    const auto [statement, notes] = text_in_document(cases[i]);
+    const bool ends = i + 1 == cases.size() || text_in_document(cases[i + 1]) != std::pair(statement, notes);
+    names += "**" + cases[i].name + "**" + (ends ? "" : ", ");
+    data += "`" + data_of(cases[i]) + "`" + (ends ? "" : "; ");
+    if (!ends)
+      continue;
+    text += "- " + names + ". " + statement + " " + data + "." + notes + "\n";
+    names.clear();
+    data.clear();
+  }
+  return text;
 }
 
 std::string file_in_document(const VerifiedFile &file)
 {
-  std::string rows, items;
+  std::string rows;
   for (std::size_t i = 0; i < file.file.cases.size(); ++i)
-  {
     rows += row_in_document(file.file.cases[i], file.outcomes[i]);
-    items += item_in_document(file.file.cases[i]);
-  }
   return "## " + file.file.title + "\n\n" + (file.file.lead.empty() ? "" : file.file.lead + "\n\n") +
          "| case | compared | expected | obtained | error | allowed |\n|---|---|--:|--:|--:|--:|\n" + rows + "\n" +
-         items + "\n";
+         items_in_document(file.file.cases) + "\n";
 }
 
 } // namespace
