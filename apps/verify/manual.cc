@@ -85,7 +85,19 @@ std::string formula_of(const Check &check)
 /// Compared values with one formula.
 struct ExpectedNames
 {
-  std::string formula, names;
+  std::string              formula;
+  std::vector<std::string> names;
+
+  std::string text() const
+  {
+    std::string text = names.front();
+    if (names.size() > 4)
+      text += " ... " + names.back();
+    else
+      for (std::size_t i = 1; i < names.size(); ++i)
+        text += ", " + names[i];
+    return text + (formula.empty() ? "" : " by " + formula);
+  }
 };
 
 void add_name(std::vector<ExpectedNames> &expected, const Check &check)
@@ -94,9 +106,9 @@ void add_name(std::vector<ExpectedNames> &expected, const Check &check)
   const auto        same = std::find_if(expected.begin(), expected.end(),
                                         [&](const ExpectedNames &other) { return other.formula == formula; });
   if (same == expected.end())
-    expected.push_back({formula, name});
-  else if (same->names.find(name) == std::string::npos)
-    same->names += ", " + name;
+    expected.push_back({formula, {name}});
+  else if (std::find(same->names.begin(), same->names.end(), name) == same->names.end())
+    same->names.push_back(name);
 }
 
 /// One note for all checks with the same source and tolerance.
@@ -117,7 +129,7 @@ std::vector<std::string> notes_of(const ReferenceCase &one)
     std::string line;
     if (notes.size() > 1 || expected.size() > 1 || !expected[0].formula.empty()) // else the table has the names
       for (const ExpectedNames &each : expected)
-        line += (line.empty() ? "" : "; ") + each.names + (each.formula.empty() ? "" : " by " + each.formula);
+        line += (line.empty() ? "" : "; ") + each.text();
     lines.push_back(line + (line.empty() ? "" : ": ") + from + ".");
   }
   for (const auto &[method, why] : one.methods_left_out)
