@@ -68,7 +68,7 @@ TEST(StudyCommand, SharesNoFolderWithARun)
   const std::string list = read(own.results() / ".gestell-files");
   EXPECT_NE(list.find("study.json\n"), std::string::npos) << list;
   EXPECT_NE(list.find("runs_share_1_of_2.csv\n"), std::string::npos) << list;
-  expect_answer(gestell("run " + scene_of_run + own.option()), 2, {"it holds a study", "-o DIR"});
+  expect_answer(gestell("run " + scene_of_run + own.option()), 2, {"it contains a study", "-o DIR"});
 }
 
 TEST(StudyCommand, IsNotBegunTwiceInOneFolderAtOnce)

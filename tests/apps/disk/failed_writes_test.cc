@@ -32,10 +32,10 @@ TEST(FailedWrite, LosesNoHistory)
   const std::string full   = full_disk(cases, folder.results() / "history.csv");
   const Answer      answer = shell(cases.command(run, folder.results(), "", full));
   expect_answer(answer, 3,
-                {"history.csv: cannot be written (No space left on device)", "everything is in ", " instead"});
+                {"history.csv: cannot be written (No space left on device)", "all results are in ", " instead"});
   EXPECT_FALSE(std::filesystem::exists(folder.results() / "history.csv"));
   EXPECT_NE(read(folder.results() / "summary.json").find("history.csv: cannot be written"), std::string::npos);
-  const auto                  begin     = answer.text.find("everything is in ") + 17;
+  const auto                  begin     = answer.text.find("all results are in ") + 19;
   const std::filesystem::path elsewhere = answer.text.substr(begin, answer.text.find(" instead") - begin);
   EXPECT_GT(read(elsewhere / "history.csv").size(), 1000u);
 }

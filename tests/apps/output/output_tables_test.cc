@@ -229,7 +229,7 @@ TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndTellsWhatIsMissing)
       }
       catch (const coupling::WriteFailure &failure)
       {
-        reported = std::string(failure.what()).find("what could be written is in " + cut.string()) != std::string::npos;
+        reported = std::string(failure.what()).find("all other results are in " + cut.string()) != std::string::npos;
       }
       _exit(reported ? 0 : 1);
     }
@@ -294,7 +294,7 @@ TEST(ChangeText, IsThatOfTheMagnitude)
 
 TEST(ChangeText, IsNoPercentageWhereNoneTells)
 {
-  EXPECT_EQ(change_text(-100., 90.), "of the other sign");
+  EXPECT_EQ(change_text(-100., 90.), "opposite sign");
   EXPECT_EQ(change_text(3., 3. * (1. + 1e-12)), "the same");
   EXPECT_EQ(change_text(0., 0.), "the same");
   EXPECT_EQ(change_text(0., 5.), "");

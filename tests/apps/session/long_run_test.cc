@@ -185,9 +185,9 @@ TEST(BasinScene, AsksForAPlaneByTheNamesOfTheStart)
     return refusal([&] { periodic_of(scene, request); });
   };
   EXPECT_THAT(words("slid, slide'"), testing::HasSubstr("'slide'"));
-  EXPECT_THAT(words("slide"), testing::HasSubstr("two sides"));
+  EXPECT_THAT(words("slide"), testing::HasSubstr("two axes"));
   EXPECT_THAT(words("slide, slide"), testing::HasSubstr("the same"));
-  EXPECT_THAT(words("slide from 1 to -1, slide'"), testing::HasSubstr("larger value comes second"));
+  EXPECT_THAT(words("slide from 1 to -1, slide'"), testing::HasSubstr("empty range"));
   EXPECT_THAT(words("slide from 1, slide'"), testing::HasSubstr("from -1 to 1"));
 }
 

@@ -120,7 +120,8 @@ TEST_F(OfFlight, AnInterruptionKeepsTheRunAndWhatIsKnownByThen)
   EXPECT_EQ(result.run->events.size(), 2u);
   EXPECT_TRUE(sensitivities_of(result).interrupted);
   EXPECT_TRUE(std::isnan(output(sensitivities_of(result), "q.max").derivative[0]));
-  EXPECT_THAT(result.warnings, ::testing::Contains(::testing::HasSubstr("interrupted: sensitivities are known of")));
+  EXPECT_THAT(result.warnings,
+              ::testing::Contains(::testing::HasSubstr("interrupted: sensitivities cover the motion")));
 }
 
 TEST_F(OfFlight, AMotionThatTouchesAStopHasNone)
