@@ -71,7 +71,7 @@ std::vector<std::string> command_names(const CLI::App &program)
 CLI::Validator not_empty()
 {
   return CLI::Validator([](const std::string &text)
-                        { return text.empty() ? "is empty; give it a value, or leave it out" : std::string(); },
+                        { return text.empty() ? "is empty; give a value, or omit the option" : std::string(); },
                         "");
 }
 
@@ -98,7 +98,7 @@ void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
   command.add_flag("--quiet", options.quiet, "no progress on standard error");
   command.add_flag_callback(
       "--trust-scripts", [&options] { options.scripts = fem::Scripts::trusted; },
-      "accept gmsh scripts (.geo) unchecked; they may run programs and write files");
+      "accept gmsh scripts (.geo) without a check; they may run programs and write files");
   if (cad)
     return;
   command

@@ -130,7 +130,7 @@ std::string generated(const std::string &marker)
     return question_table();
   if (marker.rfind(keys, 0) != 0)
     throw std::invalid_argument("the marker '" + marker +
-                                "' is not known; there are 'keys: TABLE', 'members: summary.json', 'questions', "
+                                "' is not known; valid: 'keys: TABLE', 'members: summary.json', 'questions', "
                                 "'result files' and 'options'");
   return key_tables(marker.substr(keys.size()));
 }

@@ -51,7 +51,7 @@ TEST(FailedWrite, OfAnInterruptedRunTellsWhetherItCanGoOn)
       " --set run.end=90 --set run.step=2e-6 --set output.step=0.01 --checkpoint 0.05" + folder.option();
   expect_answer(shell(full_disk(cases, folder.results() / "history.csv") + run), 3,
                 {"history.csv: cannot be written", "the run was interrupted; gestell run ", "--set run.end=90",
-                 "--resume -o ", "goes on from its last checkpoint"});
+                 "--resume -o ", "continues from its last checkpoint"});
 }
 
 } // namespace

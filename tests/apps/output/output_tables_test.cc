@@ -275,8 +275,8 @@ TEST(StoryTable, SaysWhatIsNotKnown)
   EXPECT_TRUE(reported["modes"][0]["energy"].is_null());
   EXPECT_TRUE(reported["modes"][0]["mode"].is_null());
   load.modes.clear();
-  load.unknown = "the run kept no state near its fall";
-  EXPECT_NE(story_text(story).find("no modes: the run kept no state"), std::string::npos);
+  load.unknown = "the run stored no state near its fall";
+  EXPECT_NE(story_text(story).find("no modes: the run stored no state"), std::string::npos);
   EXPECT_EQ(story_text(story).find("energy [J]"), std::string::npos); // no head of a table without rows
   result.story = story;
   reported     = Json::parse(summary_json(result))["story"]["loads"][0];

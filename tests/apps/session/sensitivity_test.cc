@@ -69,7 +69,7 @@ TEST_F(OfFlight, AllMeansTheNumbersAmongTheParametersThatAreNotZeroAndMatter)
   EXPECT_THAT(warnings,
               ::testing::Contains(::testing::HasSubstr("on which no value of the scene depends: parameters.idle")));
   EXPECT_THAT(warnings, ::testing::Not(::testing::Contains(::testing::HasSubstr("refused"))));
-  EXPECT_THAT(warnings, ::testing::Contains(::testing::HasSubstr("leaves out parameters that are 0")));
+  EXPECT_THAT(warnings, ::testing::Contains(::testing::HasSubstr("omits parameters that are 0")));
 }
 
 TEST_F(OfFlight, DerivativesComeInSiUnits)
@@ -104,7 +104,7 @@ TEST_F(OfFlight, WhatIsNoNumberOfTheMachineIsRefusedByName)
   refused("element.stop.side", "\"above\" is not a number");
   refused("body.mass.axis", "is an array");
   refused("parameters.none", "is 0");
-  refused("run.tolerance", "how the run is integrated");
+  refused("run.tolerance", "the integration of the run");
   refused("name", "the name of the scene");
   refused("parameters.m_1,parameters.m_1", "named twice");
   refused("parameters.m_1,", "with commas between them");

@@ -131,7 +131,7 @@ TEST(Stages, NeedNamesAndSignalsThatThereAre)
   { return refusal([&] { apps::read_scene(shipped("crane_minimal.toml"), {"output.stages=" + stages}); }); };
   EXPECT_THAT(refused("{borders=[\"limiter\"], names=[\"a\"]}"), ::testing::HasSubstr("1 border part the run into 2"));
   EXPECT_THAT(refused("{borders=[\"limiter\"], ringing=[\"q9\"]}"), ::testing::HasSubstr("no signal 'q9'"));
-  EXPECT_THAT(refused("{borders=[]}"), ::testing::HasSubstr("needs at least one text"));
+  EXPECT_THAT(refused("{borders=[]}"), ::testing::HasSubstr("needs at least one string"));
 }
 
 // --- a switch that ends the run
