@@ -115,9 +115,10 @@ std::vector<std::string> notes_of(const ReferenceCase &one)
   for (const auto &[from, expected] : notes)
   {
     std::string line;
-    for (const ExpectedNames &each : expected)
-      line += (line.empty() ? "" : "; ") + each.names + (each.formula.empty() ? "" : " by " + each.formula);
-    lines.push_back(line + ": " + from + ".");
+    if (notes.size() > 1 || expected.size() > 1 || !expected[0].formula.empty()) // else the table has the names
+      for (const ExpectedNames &each : expected)
+        line += (line.empty() ? "" : "; ") + each.names + (each.formula.empty() ? "" : " by " + each.formula);
+    lines.push_back(line + (line.empty() ? "" : ": ") + from + ".");
   }
   for (const auto &[method, why] : one.methods_left_out)
     lines.push_back("Not in the table: " + method + ", " + why + ".");
@@ -197,22 +198,45 @@ std::string cell(std::string text)
   return text;
 }
 
-std::string case_in_document(const ReferenceCase &one, const CaseOutcome &outcome)
+/// One row: a line in each cell for each check.
+std::string row_in_document(const ReferenceCase &one, const CaseOutcome &outcome)
 {
-  std::string text = "### " + one.name + "\n\n" + one.states + (one.equation.empty() ? "" : " " + one.equation + ".") +
-                     " `" + data_of(one) +
-                     "`\n\n| compared | expected | obtained | error | allowed | |\n|---|--:|--:|--:|--:|---|\n";
-  std::string notes;
+  std::string names, expected, obtained, errors, allowed;
   for (std::size_t j = 0; j < one.checks.size(); ++j)
   {
-    const Check        &check = one.checks[j];
-    const CheckOutcome &out   = outcome.checks[j];
-    text += "| " + cell(name_with_count(check, out)) + " | " + out.expected + " | " + out.obtained + " | " +
-            short_text(out.error, 2) + " | " + short_text(out.allowed, 2) + " | " + cell(verdict(out)) + " |\n";
+    const CheckOutcome &out = outcome.checks[j];
+    const std::string   end = j + 1 < one.checks.size() ? "<br>" : "";
+    names += cell(name_with_count(one.checks[j], out)) + end;
+    expected += out.expected + end;
+    obtained += out.obtained + end;
+    errors += short_text(out.error, 2) + end;
+    allowed += short_text(out.allowed, 2) + (out.passed ? "" : " " + cell(verdict(out))) + end;
   }
+  return "| " + cell(one.name) + " | " + names + " | " + expected + " | " + obtained + " | " + errors + " | " +
+         allowed + " |\n";
+}
+
+/// One item for each case: statement, equation, scene, and the source of its expected values.
+std::string item_in_document(const ReferenceCase &one)
+{
+  std::string text = "- **" + one.name + "**. " + one.states + (one.equation.empty() ? "" : " " + one.equation + ".") +
+                     " `" + data_of(one) + "`.";
   for (const std::string &note : notes_of(one))
-    notes += "- " + note + "\n";
-  return text + "\n" + notes + "\n";
+    text += " " + note;
+  return text + "\n";
+}
+
+std::string file_in_document(const VerifiedFile &file)
+{
+  std::string rows, items;
+  for (std::size_t i = 0; i < file.file.cases.size(); ++i)
+  {
+    rows += row_in_document(file.file.cases[i], file.outcomes[i]);
+    items += item_in_document(file.file.cases[i]);
+  }
+  return "## " + file.file.title + "\n\n" + (file.file.lead.empty() ? "" : file.file.lead + "\n\n") +
+         "| case | compared | expected | obtained | error | allowed |\n|---|---|--:|--:|--:|--:|\n" + rows + "\n" +
+         items + "\n";
 }
 
 } // namespace
@@ -282,14 +306,11 @@ std::string verification_document(const Verification &all)
       "# Verification\n\nReference cases shipped with the program, computed by `gestell verify --all`: " +
       verdict_text(all) +
       ".\nExpected values come from closed forms or from independent computations, never from Gestell. For a "
-      "table,\nthe pair of numbers with the largest share of the tolerance is listed.\n"
+      "table,\nthe pair of numbers with the largest share of the tolerance is listed. The list after each table gives "
+      "scene, formula and tolerance.\n"
       "This page is written by `gestell verify --all --renew docs`.\n\n";
   for (const VerifiedFile &file : all.files)
-  {
-    text += "## " + file.file.title + "\n\n" + (file.file.lead.empty() ? "" : file.file.lead + "\n\n");
-    for (std::size_t i = 0; i < file.file.cases.size(); ++i)
-      text += case_in_document(file.file.cases[i], file.outcomes[i]);
-  }
+    text += file_in_document(file);
   std::string rows;
   for (const VerifiedFile &file : all.files)
     for (const auto &[name, why] : file.file.left_out)

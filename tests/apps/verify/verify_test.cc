@@ -264,7 +264,7 @@ TEST(Verify, TheDocumentHoldsEveryCaseThatIsShipped)
   const std::string document = tests::read(GESTELL_SOURCE_DIR "/docs/trust/verification.md");
   for (const std::string &file : apps::case_files(GESTELL_SOURCE_DIR "/apps/verification"))
     for (const auto &one : apps::read_cases(file).cases)
-      EXPECT_NE(document.find("### " + one.name + "\n"), std::string::npos)
+      EXPECT_NE(document.find("- **" + one.name + "**. "), std::string::npos)
           << one.name << ": gestell verify --all --renew docs writes it";
 }
 
