@@ -21,20 +21,15 @@ namespace gestell::apps
 namespace
 {
 
-std::string rows(const std::vector<Key> &keys)
-{
-  if (keys.empty())
-    return "";
-  std::string text = "| Key | Description | Type / unit | Default |\n|---|---|---|---|\n";
-  for (const Key &key : keys)
-    text += "| `" + key.name + "` | " + key.meaning + " | " + taken_by(key) + " | " + default_of(key) + " |\n";
-  return text + "\n";
-}
-
 /// "joint" of [joint.NAME].
 std::string family_of(const DeclaredTable &table)
 {
   return table.path.substr(0, table.path.find('.'));
+}
+
+bool belongs(const KeyGroup &group, const std::string &family)
+{
+  return std::find(group.families.begin(), group.families.end(), family) != group.families.end();
 }
 
 bool is_shared(const Key &key, const KeyGroup &group)
@@ -52,13 +47,59 @@ std::string anchor(std::string title)
   return "#" + title;
 }
 
+/// Type of the key; a table whose keys are a group of their own is a link to it.
+std::string type_cell(const Key &key, const std::string &family)
+{
+  std::string text = taken_by(key);
+  for (const KeyGroup &group : key_groups())
+    if (const std::string keys = "table with " + quoted_names(key.keys);
+        group.of == key.name && belongs(group, family) && text.find(keys) != std::string::npos)
+      text.replace(text.find(keys), keys.size(), "[table](" + anchor(group.title) + ")");
+  return text;
+}
+
+std::string rows(const std::vector<Key> &keys, const std::string &family = "")
+{
+  if (keys.empty())
+    return "";
+  std::string text = "| Key | Description | Type / unit | Default |\n|---|---|---|---|\n";
+  for (const Key &key : keys)
+    text += "| `" + key.name + "` | " + key.meaning + " | " + type_cell(key, family) + " | " + default_of(key) + " |\n";
+  return text + "\n";
+}
+
+/// Whether the page has to give the signals: those that all types of a family have are in its text.
+bool has_own_signals(const DeclaredTable &table)
+{
+  const std::vector<DeclaredTable> &all = declared_tables();
+  return !table.signals.empty() &&
+         std::any_of(all.begin(), all.end(),
+                     [&](const DeclaredTable &other)
+                     { return family_of(other) == family_of(table) && other.signals != table.signals; });
+}
+
+/// Whether a value of one of the keys is more than a number, a word or a vector; `gestell help` prints all examples.
+bool needs_example(const std::vector<Key> &keys)
+{
+  const auto is_nested = [](Key::Form form)
+  {
+    using Form = Key::Form;
+    return form == Form::profile || form == Form::course || form == Form::rows || form == Form::tables ||
+           form == Form::formula || form == Form::map;
+  };
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const Key &key)
+                     { return is_nested(key.form) || std::any_of(key.others.begin(), key.others.end(), is_nested); });
+}
+
 std::string section(const DeclaredTable &table)
 {
   std::string      text = "### " + (table.type.empty() ? table.path : table.type) + "\n\n" + table.does;
-  std::vector<Key> own  = table.keys;
+  std::string      groups;
+  std::vector<Key> own = table.keys;
   for (const KeyGroup &group : key_groups())
   {
-    if (std::find(group.families.begin(), group.families.end(), family_of(table)) == group.families.end())
+    if (!belongs(group, family_of(table)))
       continue;
     const auto shared =
         std::stable_partition(own.begin(), own.end(), [&](const Key &key) { return !is_shared(key, group); });
@@ -68,20 +109,19 @@ std::string section(const DeclaredTable &table)
     std::copy_if(group.keys.begin(), group.keys.end(), std::back_inserter(others),
                  [&](const Key &key)
                  { return std::none_of(shared, own.end(), [&](const Key &other) { return other.name == key.name; }); });
-    text += " Keys of [" + group.title + "](" + anchor(group.title) + ")" +
-            (others.empty() ? "." : " except " + quoted_names(others) + ".");
+    groups += (groups.empty() ? " Keys of [" : ", and of [") + group.title + "](" + anchor(group.title) + ")" +
+              (others.empty() ? "" : " except " + quoted_names(others));
     own.erase(shared, own.end());
   }
   own.erase(
       std::remove_if(own.begin(), own.end(), [&](const Key &key) { return !table.type.empty() && key.name == "type"; }),
       own.end());
-  text += "\n\n" + rows(own);
-  if (!table.signals.empty())
-    text += "Signals: " + table.signals + ".\n\n";
-  if (!table.examples.empty())
+  text += groups + (groups.empty() ? "" : ".");
+  if (has_own_signals(table))
+    text += " Signals: " + table.signals + ".";
+  text += "\n\n" + rows(own, family_of(table));
+  if (!table.examples.empty() && needs_example(table.keys))
     text += "```toml\ntype = \"" + table.type + "\"\n" + table.examples.front() + "```\n\n";
-  if (table.examples.size() > 1)
-    text += "More examples: `gestell help '" + table.path + "'`.\n\n";
   return text;
 }
 
@@ -103,7 +143,7 @@ std::string key_tables(const std::string &topic)
   for (const KeyGroup &group : key_groups())
     if (group.families.front() == topic)
       text += "### " + group.title + "\n\n" + (group.of.empty() ? "" : "Keys of `" + group.of + "`.\n\n") +
-              rows(group.keys);
+              rows(group.keys, topic);
   for (const DeclaredTable &table : declared_tables())
     if (table.heading == "[" + topic + ".NAME]" && (!table.type.empty() || table.path == "element"))
       text += section(table);
