@@ -32,11 +32,12 @@ bool belongs(const KeyGroup &group, const std::string &family)
   return std::find(group.families.begin(), group.families.end(), family) != group.families.end();
 }
 
-bool is_shared(const Key &key, const KeyGroup &group)
+/// Whether one of the keys has the same row.
+bool has_row(const std::vector<Key> &keys, const Key &key)
 {
-  const Key *shared = find_key(group.keys, key.name);
-  return group.of.empty() && shared && shared->meaning == key.meaning && default_of(*shared) == default_of(key) &&
-         taken_by(*shared) == taken_by(key);
+  const Key *other = find_key(keys, key.name);
+  return other && other->meaning == key.meaning && default_of(*other) == default_of(key) &&
+         taken_by(*other) == taken_by(key);
 }
 
 /// "#contact", as links of Markdown go to a title.
@@ -101,8 +102,8 @@ std::string section(const DeclaredTable &table)
   {
     if (!belongs(group, family_of(table)))
       continue;
-    const auto shared =
-        std::stable_partition(own.begin(), own.end(), [&](const Key &key) { return !is_shared(key, group); });
+    const auto shared = std::stable_partition(
+        own.begin(), own.end(), [&](const Key &key) { return !(group.of.empty() && has_row(group.keys, key)); });
     if (2 * static_cast<std::size_t>(own.end() - shared) <= group.keys.size()) // a reader would have to look up more
       continue;                                                                // keys than stay in the table
     std::vector<Key> others;
@@ -123,6 +124,25 @@ std::string section(const DeclaredTable &table)
   if (!table.examples.empty() && needs_example(table.keys))
     text += "```toml\ntype = \"" + table.type + "\"\n" + table.examples.front() + "```\n\n";
   return text;
+}
+
+/// Rows of a table.  Keys that its page explains for another table are only named: of a part those of the frame, of a
+/// support given by matrices those of a cut.
+std::string own_rows(const DeclaredTable &table)
+{
+  const bool        is_part = table.path == "frame.part";
+  const std::string other   = is_part ? "frame" : table.path == "matrices.support" ? "matrices.cut" : "";
+  const auto        found   = std::find_if(declared_tables().begin(), declared_tables().end(),
+                                           [&](const DeclaredTable &one) { return one.path == other; });
+  if (found == declared_tables().end())
+    return rows(table.keys);
+  std::vector<Key> own = table.keys;
+  const auto       same =
+      std::stable_partition(own.begin(), own.end(), [&](const Key &key) { return !has_row(found->keys, key); });
+  const std::vector<Key> shared(same, own.end());
+  own.erase(same, own.end());
+  return rows(own) + "Keys with the same meaning as " + (is_part ? "for a [`[frame]`](frame.md#frame)" : "for a cut") +
+         ": " + quoted_names(shared) + ".\n\n";
 }
 
 std::string content(const std::filesystem::path &file)
@@ -151,7 +171,7 @@ std::string key_tables(const std::string &topic)
     return text;
   for (const DeclaredTable &table : told_tables())
     if (table.path == topic)
-      return rows(table.keys);
+      return own_rows(table);
   throw std::invalid_argument("there is no table '" + topic + "' whose keys could be listed");
 }
 
