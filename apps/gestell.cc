@@ -128,7 +128,7 @@ int run_guarded(int argc, char **argv, JsonAnswer &answer)
   catch (const std::bad_alloc &)
   {
     return fail(exit_failed,
-                "the computation failed: out of memory; take a coarser mesh (mesh.size), fewer modes "
+                "the computation failed: out of memory; use a coarser mesh (mesh.size), fewer modes "
                 "(reduction.modes) or a larger step of what is kept (output.step, output.picture_step, "
                 "output.stress.step), or a machine with more memory",
                 answer);

@@ -16,8 +16,7 @@ UserForce::UserForce(UserLaw law, Along along) : functions_(std::move(law)), alo
   if (functions_.events.empty() == bool(functions_.event_values))
     throw std::invalid_argument("user force: events need names and a function of their values; give both or none");
   if (functions_.state.empty() && (functions_.at_event || functions_.after_step))
-    throw std::invalid_argument("user force: functions change the state, but there is none; give its numbers at the "
-                                "start");
+    throw std::invalid_argument("user force: functions change the state, but there is none; give its initial values");
 }
 
 std::string UserForce::fault(double t) const

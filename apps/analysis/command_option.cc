@@ -37,7 +37,7 @@ T value_of_text(const CommandOption &option, const std::string &text)
     const bool whole = !std::is_integral_v<T> ||
                        (value == std::floor(value) && std::abs(value) <= double(std::numeric_limits<int>::max()));
     if (!reads || !fits || !whole)
-      throw std::invalid_argument(option.name + ": needs a " + (std::is_integral_v<T> ? "whole number" : "number") +
+      throw std::invalid_argument(option.name + ": needs " + (std::is_integral_v<T> ? "an integer" : "a number") +
                                   (above ? " above zero" : "") +
                                   (option.most > 0. ? ", at most " + short_text(option.most, 12) : "") + ", got '" +
                                   text + "'");

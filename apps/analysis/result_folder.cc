@@ -49,7 +49,7 @@ void require_folder(const fs::path &folder)
 void require_no_study(const fs::path &folder)
 {
   if (OwnFolder(folder).owns("study.json"))
-    refuse(folder, "it holds a study, whose report would be replaced");
+    refuse(folder, "it contains a study, whose report would be overwritten");
 }
 
 const char *const complete = "summary.json"; ///< the first to be removed and the last to be written
@@ -148,8 +148,8 @@ bool incomplete(const fs::path &folder)
 
 std::string incomplete_words(const fs::path &folder)
 {
-  return folder.string() + " holds no " + complete +
-         ": a run ended before its results were whole; files that are there are whole, others are missing. Run it "
+  return folder.string() + " contains no " + complete +
+         ": a run ended before it had written all results; files that exist are complete, others are missing. Run it "
          "again";
 }
 

@@ -58,12 +58,13 @@ void lay_methods_over(const Scene &scene, PreparedMachine &prepared, double step
   if (step > 0.)
     method.step = step;
   if (!(method.step > 0.))
-    throw std::invalid_argument("stability: the scene names no step; give the one to look at, such as --step 1e-4");
+    throw std::invalid_argument("stability: the scene has no fixed step; give one, such as --step 1e-4");
   if (method.tolerance > 0.)
-    study.notes.push_back("The scene controls its step; its modes are shown at " + short_text(method.step) + " s.");
+    study.notes.push_back("The step of the scene is controlled; its modes are shown for a step of " +
+                          short_text(method.step) + " s.");
   method.tolerance = 0.;
   if (prepared.companion && !in_modes)
-    study.notes.push_back("The frame is unreduced; modes are those of its reduced companion.");
+    study.notes.push_back("The frame is unreduced; the modes are those of the reduced frame.");
 
   std::ostringstream name;
   name << coupling::method_name(method) << " with a step of " << method.step << " s";

@@ -73,8 +73,8 @@ double amount(const std::string &option, const std::string &text, const std::map
     std::string valid;
     for (const auto &[name, value] : units)
       valid += (valid.empty() ? "" : ", ") + name;
-    throw std::invalid_argument(option + ": got '" + text + "'; it needs a number from zero and one of the units " +
-                                valid);
+    throw std::invalid_argument(option + ": got '" + text +
+                                "'; it needs a number of zero or more with one of the units " + valid);
   }
   return number * found->second;
 }
@@ -141,7 +141,7 @@ void explain_miss(const std::vector<CacheEntry> &entries, const coupling::Recipe
   std::cout << "  nearest: " << short_key(nearest->key) << ", " << origin_text(nearest->origin) << ", last used "
             << date_text(nearest->last_used) << "; it differs in\n";
   for (const auto &[name, kept, requested] : different)
-    std::cout << "    " << name << ": kept " << ingredient_text(name, kept) << ", asked "
+    std::cout << "    " << name << ": cached " << ingredient_text(name, kept) << ", requested "
               << ingredient_text(name, requested) << '\n';
   if (different.empty())
     std::cout << "    the order of supports, interfaces or cuts\n";

@@ -130,7 +130,7 @@ int check(const CommonOptions &options)
   if (answers_in_json())
     answer_with(scene_json(scene));
   std::cout << scene.file << ": the scene \"" << scene.name
-            << "\" is well formed: " << count_text(scene.bodies.size(), "body", "bodies") << ", "
+            << "\" is valid: " << count_text(scene.bodies.size(), "body", "bodies") << ", "
             << count_text(elements_written(scene), "element") << ", " << count_text(scene.signals.size(), "signal")
             << '\n';
   if (!geometry.empty())
@@ -140,7 +140,8 @@ int check(const CommonOptions &options)
   for (const std::string &line : scene_summary(scene))
     std::cout << "  " << line << '\n';
   if (!scene.joints.empty() && !places_known(scene))
-    std::cout << "joints: closed when the frame is made; interfaces without 'position' are placed by its file\n";
+    std::cout << "joints: assembled when the frame is created; the positions of interfaces without 'position' follow "
+                 "from its file\n";
   for (const BodyRequest &body : scene.bodies)
     if (body.part)
       std::cout << body.part->found << '\n';

@@ -35,7 +35,7 @@ std::string write_answer_of(const AnalysisEntry &entry, const Result &result, co
   for (const ResultFile &file : entry.files)
     if (file.by == WrittenBy::write_results)
       files += file.name + ", ";
-  return folder.string() + " holds a run, which is kept: only " + files +
+  return folder.string() + " contains a run, which is kept: only " + files +
          "tables of modes, their charts and frame_modes.pvd were written";
 }
 

@@ -129,9 +129,9 @@ std::string library_of_fmus()
 {
   const auto file = coupling::find_plugin(fmu_library);
   if (file.empty())
-    throw std::invalid_argument(std::string("gestell export: ") + fmu_library +
-                                " not found beside the program; build the target gestell_fmu, or set "
-                                "GESTELL_PLUGIN_DIR to its folder");
+    throw std::invalid_argument(
+        std::string("gestell export: ") + fmu_library +
+        " not found next to the program; build the target gestell_fmu, or set GESTELL_PLUGIN_DIR to its folder");
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -141,8 +141,8 @@ std::string page_of(const FmuAnswer &answer)
 {
   std::string text = "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><title>FMU by Gestell</title></head><body>"
                      "<p>Machine of a scene of Gestell, FMI 2.0 for co-simulation. The scene is resources/scene.toml. "
-                     "All values are in SI. Inputs are held over a communication step, or follow the straight line of "
-                     "their derivative.</p>";
+                     "All values are in SI. Inputs are constant over a communication step, or linear if their "
+                     "derivative is given.</p>";
   for (const std::string &note : answer.notes)
     text += "<p>" + note + ".</p>";
   return text + "</body></html>\n";
@@ -174,8 +174,7 @@ void print_variables(const std::string &kind, const std::vector<FmuVariable> &va
 std::filesystem::path place_of_fmu(const CommonOptions &options, const ExportOptions &requested, const Scene &scene)
 {
   if (!requested.fmu.empty() && !options.folder.empty())
-    throw std::invalid_argument("gestell export: --fmu names the file, -o the folder of one that is named after the "
-                                "scene; give one of both");
+    throw std::invalid_argument("gestell export: --fmu names the file, -o only the folder; use one of the two options");
   return requested.fmu.empty() ? results_path(options, scene) / (scene.name + ".fmu")
                                : std::filesystem::path(requested.fmu);
 }
@@ -189,7 +188,7 @@ void require_archive(const std::filesystem::path &file)
   if (std::filesystem::exists(std::filesystem::symlink_status(file, none)) &&
       !(in.read(begin, 2) && begin[0] == 'P' && begin[1] == 'K'))
     throw std::invalid_argument("--fmu: " + file.string() +
-                                " already exists and is not an FMU, so that it is not replaced; give another name");
+                                " already exists and is not an FMU, so it is not replaced; choose another name");
 }
 
 int export_scene(const CommonOptions &options, const ExportOptions &requested)

@@ -42,16 +42,16 @@ int help(const HelpCommandOptions &help)
 Command help_command()
 {
   const auto own = std::make_shared<HelpCommandOptions>();
-  return {"help",
-          "list commands by question, explain the keys of scenes and studies",
-          {"gestell help element.clearance", "gestell help stiffness", "gestell help \"what force\""},
-          CommandInput::none,
-          {CommandOption{"KEY", &own->topic,
-                         "table, key or words of a question (default: the lists of questions and tables)"}
-               .proposing(tables()),
-           {"--schema", &own->schema, "only print the JSON schema of scenes, for editors"},
-           {"--renew", &own->docs, "only regenerate schemas, key tables and options in this folder of documents"}},
-          [own](const CommonOptions &) { return help(*own); }};
+  return {
+      "help",
+      "list commands by question, explain the keys of scenes and studies",
+      {"gestell help element.clearance", "gestell help stiffness", "gestell help \"what force\""},
+      CommandInput::none,
+      {CommandOption{"KEY", &own->topic, "table, key or words of a question (default: lists of questions and tables)"}
+           .proposing(tables()),
+       {"--schema", &own->schema, "only print the JSON schema of scenes, for editors"},
+       {"--renew", &own->docs, "only regenerate schemas, key tables and options in this documentation folder"}},
+      [own](const CommonOptions &) { return help(*own); }};
 }
 
 } // namespace gestell::apps

@@ -72,8 +72,8 @@ extern "C" void note_interruption(int signal_number)
   const Interruption now   = effect;
   if (now == Interruption::ends_at_once || now == Interruption::ends_without_files)
   {
-    say(now == Interruption::ends_at_once ? "\ngestell: interrupted; nothing was computed yet that could be saved\n"
-                                          : "\ngestell: interrupted; files that are not there yet are not written\n");
+    say(now == Interruption::ends_at_once ? "\ngestell: interrupted; there are no results to save yet\n"
+                                          : "\ngestell: interrupted; the remaining files are not written\n");
     leave_nothing();
     _exit(exit_interrupted);
   }
@@ -84,8 +84,8 @@ extern "C" void note_interruption(int signal_number)
   if (first_signal.compare_exchange_strong(first, time))
   {
     interrupted = true;
-    say(now == Interruption::ends ? "\ngestell: interrupted; ending (once more: end at once)\n"
-                                  : "\ngestell: interrupted; saving what was computed (once more: end at once)\n");
+    say(now == Interruption::ends ? "\ngestell: interrupted; ending (interrupt again to end immediately)\n"
+                                  : "\ngestell: interrupted; saving results (interrupt again to end immediately)\n");
   }
   // Whoever signals a process and its group sends two at once: that is one wish.
   else if (time - first > one_wish)

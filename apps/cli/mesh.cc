@@ -238,7 +238,7 @@ Command mesh_command()
        {"--gap", &own->gap, "join solids that are at most this far apart, such as \"0.1 mm\""},
        CommandOption{"--bodies", &own->bodies, "expected number of separate bodies"}.above_zero(),
        CommandOption{"--overlaps", &own->overlaps,
-                     "refused (default), or once: the common volume of solids is assigned to the first"}
+                     "overlapping solids: refused (default), or once: the common volume is assigned to the first solid"}
            .one_of({"refused", "once"}),
        CommandOption{"--plates", &own->plates, "tetrahedra, or swept: hexahedra through the thickness of walls"}.one_of(
            {"tetrahedra", "swept"}),

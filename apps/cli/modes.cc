@@ -47,7 +47,7 @@ void print_modes(const std::string &kind, const std::vector<coupling::Mode> &mod
     for (const double mass : mode.effective_mass)
       std::cout << std::setw(11) << mass;
     if (mode.growth > 0.)
-      std::cout << "   unstable: grows with " << short_text(mode.growth, 3) << " 1/s, e-fold in "
+      std::cout << "   unstable: grows at " << short_text(mode.growth, 3) << " 1/s, e-fold in "
                 << short_text(1. / mode.growth, 3) << " s";
     else if (mode.frequency_hz == 0.)
       std::cout << "   " << at_zero;
@@ -61,8 +61,9 @@ void print_poles(const std::vector<coupling::Pole> &poles)
 {
   if (poles.empty())
     return;
-  std::cout << "with drives and controllers, at the speeds of the start\n  damped frequency [Hz]   damping ratio       "
-               "real part [1/s]   dominant DOF\n";
+  std::cout
+      << "poles with drives and controllers, at the initial speeds\n  damped frequency [Hz]   damping ratio       "
+         "real part [1/s]   dominant DOF\n";
   for (const coupling::Pole &pole : poles)
     std::cout << std::setw(23) << (pole.vibrates() ? short_text(pole.frequency_hz(), 6) : "-") << std::setw(16)
               << (pole.vibrates() ? short_text(pole.damping_ratio()) : "-") << std::setw(22)
@@ -92,7 +93,7 @@ void print_coupled_modes(const Result &result)
 {
   if (!result.coupled_modes.empty() && same_modes(result.frame_modes, result.coupled_modes))
   {
-    std::cout << "coupled machine: the modes of the frame, nothing changes them\n";
+    std::cout << "coupled machine: same modes as the frame alone\n";
     return;
   }
   print_modes("coupled machine", result.coupled_modes, "rigid-body mode: no stiffness", result.model.frequency_limit);
@@ -105,7 +106,8 @@ void print_answer(const Result &result, const std::optional<coupling::MeshConver
     std::cout << "frame: " << line << '\n';
   if (convergence)
     print_convergence(*convergence, tolerance);
-  print_modes("frame as supported, interface free", result.frame_modes, "rigid motion", result.model.frequency_limit);
+  print_modes("frame as supported, interface free", result.frame_modes, "rigid-body mode",
+              result.model.frequency_limit);
   print_coupled_modes(result);
   print_poles(result.poles);
   std::cout << answers_text(result);
@@ -154,8 +156,9 @@ int find_modes(const CommonOptions &options, bool geometric, const ConvergeOptio
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
   if (beside_a_run)
-    std::cout << folder.string()
-              << " holds a run, which is kept: only tables of modes, their charts and frame_modes.pvd were written\n";
+    std::cout
+        << folder.string()
+        << " contains a run, which is kept: only tables of modes, their charts and frame_modes.pvd were written\n";
   else
     std::cout << "report: " << (folder / "report.html").string() << '\n';
   return outcome == AnalysisOutcome::interrupted                                          ? exit_interrupted

@@ -53,12 +53,13 @@ coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptio
                                          const std::filesystem::path &folder, const coupling::Progress &progress)
 {
   if (scene.frame.source == FrameSource::parts)
-    throw std::invalid_argument(scene.file + ": --converge refines the mesh of one frame, but this frame consists of "
-                                             "parts; converge each part as a frame of its own, or set their mesh.size");
+    throw std::invalid_argument(scene.file +
+                                ": --converge refines the mesh of one frame, but this frame consists of "
+                                "parts; converge each part as a separate frame, or set mesh.size of the parts");
   if (scene.frame.source != FrameSource::geometry || frame_path(scene) != FramePath::reduce)
-    throw std::invalid_argument(scene.file + ": --converge refines the mesh of a frame, but this scene's frame is not "
-                                             "made from geometry and reduced; give [frame] cad = \"FILE\" and "
-                                             "reduction.method = \"craig-bampton\"");
+    throw std::invalid_argument(
+        scene.file + ": --converge refines the mesh of a frame, but the frame of this scene has no geometry or is not "
+                     "reduced; set [frame] cad = \"FILE\" and reduction.method = \"craig-bampton\"");
   coupling::ConvergenceOptions options;
   options.tolerance       = requested.converge;
   options.n_frequencies   = requested.frequencies;
@@ -70,7 +71,7 @@ coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptio
 
 void print_convergence(const coupling::MeshConvergence &convergence, double tolerance)
 {
-  std::cout << "meshes\n  largest cell [m]     cells   coordinates     CPU s";
+  std::cout << "meshes\n  largest cell [m]     cells          DOFs     CPU s";
   for (const auto &quantity : convergence.quantities)
     std::cout << "   " << quantity.name << " [" << quantity.unit << "]";
   std::cout << '\n';
@@ -84,7 +85,7 @@ void print_convergence(const coupling::MeshConvergence &convergence, double tole
                 << short_text(level.values[j], 6);
     std::cout << '\n';
   }
-  std::cout << "the last mesh\n  value          limit          error          uncertain by   order   quantity\n";
+  std::cout << "the last mesh\n  value          limit          error          uncertainty    order   quantity\n";
   for (std::size_t j = 0; j < convergence.quantities.size(); ++j)
   {
     const coupling::ConvergedQuantity &quantity = convergence.quantities[j];
@@ -103,11 +104,11 @@ std::vector<std::string> convergence_warnings(const coupling::MeshConvergence &c
 {
   std::vector<std::string> warnings;
   for (const std::string &name : convergence.left_out)
-    warnings.push_back("mesh: " + name + " is left out, as not every mesh has it; keep more modes of the frame");
+    warnings.push_back("mesh: " + name + " is omitted, because not every mesh has it; retain more modes of the frame");
   for (const std::string &name : convergence.at_points)
     warnings.push_back("mesh: the compliance of " + name +
-                       " is not watched: under a force at a point it grows without limit as elements shrink; couple a "
-                       "surface (coupling = \"average\" or \"rigid\") where it matters");
+                       " is not checked: under a point force it grows without limit as elements shrink; to check it, "
+                       "couple a surface (coupling = \"average\" or \"rigid\")");
   if (!convergence.converged)
     warnings.push_back("mesh: " + reached(convergence) + ", not all within " + percent(tolerance) + ": " +
                        convergence.stopped);

@@ -38,10 +38,10 @@ void list_kinds()
 std::string name_of(const std::filesystem::path &file)
 {
   if (file.extension() != ".toml" || file.stem().empty())
-    throw std::invalid_argument(file.string() + ": a scene's file ends in .toml, such as machine.toml");
+    throw std::invalid_argument(file.string() + ": the file name of a scene must end in .toml, such as machine.toml");
   const std::string name = file.stem().string();
   if (name.find_first_of("\"\\") != std::string::npos)
-    throw std::invalid_argument(file.string() + ": the name of a scene has neither quotes nor backslashes");
+    throw std::invalid_argument(file.string() + ": the name of a scene must not contain quotes or backslashes");
   return name;
 }
 
@@ -75,7 +75,7 @@ int make_new(const NewOptions &options)
     std::error_code none;
     std::filesystem::remove(frame, none); // the path was free: the file is ours
     throw std::invalid_argument(std::string(failure.what()) +
-                                "; give a file where there is room and leave to write: gestell new " + chosen.kind +
+                                "; choose a folder with free space and write permission: gestell new " + chosen.kind +
                                 " FOLDER/" + scene.filename().string());
   }
   std::cout << "written: " << scene.string() << ", and its frame " << frame.string() << "\nnext:    gestell check "

@@ -33,13 +33,13 @@ const char *const frame_name = "reduced_frame.h5";
 Session scene_to_reduce(const CommonOptions &options, const Watch &watch = {})
 {
   if (options.input.empty())
-    throw std::invalid_argument("gestell reduce: names no scene; it needs one, or --list or --prune");
+    throw std::invalid_argument("gestell reduce: the scene is missing; name one, or use --list or --prune");
   Session session(options.input, options.overrides, options.scripts, watch);
   session.check();
   if (frame_path(session.scene()) != FramePath::reduce)
     throw std::invalid_argument(session.scene().file +
-                                ": this scene's frame is not reduced; give it reduction.method = "
-                                "\"craig-bampton\" and a frame from CAD, a mesh or large matrices");
+                                ": the frame of this scene is not reduced; set reduction.method = \"craig-bampton\" "
+                                "(frame from CAD, a mesh or large matrices)");
   return session;
 }
 
@@ -47,24 +47,22 @@ Session scene_to_reduce(const CommonOptions &options, const Watch &watch = {})
 void check_options(const CommonOptions &options, const ReduceCommandOptions &reduce)
 {
   if (!reduce.prune && (reduce.all || !reduce.older_than.empty() || !reduce.larger_than.empty()))
-    throw std::invalid_argument(
-        "gestell reduce: --all, --older-than and --larger-than say what --prune removes; add it");
+    throw std::invalid_argument("gestell reduce: --all, --older-than and --larger-than need --prune; add it");
   if (reduce.check && !reduce.list && !reduce.prune)
-    throw std::invalid_argument("gestell reduce: --check goes with --list or --prune; add one of them");
+    throw std::invalid_argument("gestell reduce: --check needs --list or --prune; add one of them");
   if ((reduce.prune || reduce.list) && !reduce.explain && !options.input.empty())
-    throw std::invalid_argument("gestell reduce: --list and --prune are about the whole cache; leave out " +
-                                options.input);
+    throw std::invalid_argument("gestell reduce: --list and --prune apply to the whole cache; remove " + options.input);
 }
 
 void print_frame(const FrameAnswer &answer)
 {
   const coupling::ReducedFrame &frame = answer.frame;
   std::cout
-      << (answer.from_cache ? "reduced frame from the cache\n" : "reduced frame made\n") << "  coordinates   "
+      << (answer.from_cache ? "reduced frame from the cache\n" : "reduced frame created\n") << "  coordinates   "
       << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
-      << "  static load on the inside not carried by the modes: " << 100. * frame.static_residual
-      << " % (by the energy of its deflection; exact at the interface, it matters inside under quick "
-         "accelerations; reduction.inertia_relief carries it)\n"
+      << "  static load on internal DOFs not represented by the modes: " << 100. * frame.static_residual
+      << " % (by deflection energy; exact at the interface; it matters under quick accelerations of the frame; "
+         "reduction.inertia_relief removes it)\n"
       << "  supported frame, interface free:\n    mode   frequency [Hz]     refined [Hz]   estimated relative error\n";
   const double limit = frame.frequency_limit_hz > 0. ? frame.frequency_limit_hz : INFINITY;
   for (Eigen::Index j = 0; j < frame.frequencies_hz.size(); ++j)
@@ -89,8 +87,8 @@ void print_frame(const FrameAnswer &answer)
 
 void print_partition(const Partition &partition)
 {
-  std::cout << "q1: " << partition.rows.size() << " coordinates of interfaces; q2: " << partition.n2
-            << " of the inside, in " << partition.n_modes << " modes\n";
+  std::cout << "q1: " << partition.rows.size() << " interface DOFs; q2: " << partition.n2 << " internal DOFs, in "
+            << partition.n_modes << " modes\n";
   std::size_t width = 0;
   for (const Partition::Row &row : partition.rows)
     width = std::max(width, row.coordinate.size());
@@ -100,24 +98,23 @@ void print_partition(const Partition &partition)
     for (const std::string &reason : row.reasons)
       reasons += (reasons.empty() ? "" : "; ") + reason;
     std::cout << "  " << std::left << std::setw(int(width)) << row.coordinate << std::right << "  "
-              << (reasons.empty() ? "nothing of the scene acts on it" : reasons) << '\n';
+              << (reasons.empty() ? "no object of the scene acts on it" : reasons) << '\n';
   }
   if (partition.n_free > 0)
     std::cout << "the frame has " << partition.n_free
-              << " motions without stiffness; held at its interfaces it has none, so that C22 is definite; coordinates "
-                 "with other reasons hold "
+              << " rigid-body modes; with fixed interfaces it has none, so C22 is positive definite; DOFs with other "
+                 "reasons constrain "
               << partition.n_held_by_acted << " of them\n";
   if (partition.n_massless > 0)
     std::cout << partition.n_massless
-              << " coordinates of the inside have no mass: M22 is singular, they follow statically and have no modes\n";
+              << " internal DOFs have no mass: M22 is singular, they follow statically and have no modes\n";
   for (const Partition::Idle &idle : partition.superfluous)
-    std::cout
-        << "superfluous: interface "
-        << idle.interface << ", on which nothing of the scene acts and which nothing reads; without it the model has "
-        << idle.coordinates << " coordinates less\n";
+    std::cout << "superfluous: interface "
+              << idle.interface << ", on which no object acts and which no signal reads; without it the model has "
+              << idle.coordinates << " DOFs less\n";
   for (const std::string &name : partition.only_read)
     std::cout << "only read: interface " << name
-              << ", on which nothing acts; it serves signals alone, which an output of the frame could, too\n";
+              << ", on which no object acts; it serves only signals, for which an output of the frame suffices\n";
 }
 
 int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduce)
@@ -148,7 +145,7 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
   const bool   exports = !reduce.export_format.empty();
   if (exports && scene.frame.source == FrameSource::parts)
     throw std::invalid_argument(scene.frame.place +
-                                ": --export cannot write a frame of parts, whose forces in joints need "
+                                ": --export cannot write a frame of parts, because the forces in its joints need "
                                 "accelerations; -o alone writes it for [frame] reduced = ...");
   const auto                 format = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
   const std::string          folder = exports ? results_path(options, scene).string() : options.folder;

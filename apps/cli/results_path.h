@@ -42,7 +42,7 @@ private:
 inline void say_run_is_replaced(const std::filesystem::path &folder, const std::string &own)
 {
   if (const OwnFolder there(folder); there.owns("history.csv") && !there.owns(own))
-    std::cout << "the run in " << folder.string() << " will be replaced; -o DIR keeps it" << std::endl;
+    std::cout << "the run in " << folder.string() << " will be replaced; use -o DIR to keep it" << std::endl;
 }
 
 /// Input files of the command, which no result may replace: those of its scene, and others of its options.

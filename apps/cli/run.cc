@@ -81,9 +81,9 @@ void keep_checkpoints(const CheckpointRequest &requested, const std::filesystem:
     session.keep_checkpoints({folder / checkpoint_name, requested.every, requested.resume,
                               [folder, resumed = requested.resume] { claim_checkpoint(folder, resumed); }});
   else if (requested.resume)
-    throw std::invalid_argument("--resume: a run with " + trajectory_for +
-                                " cannot go on from a checkpoint, as it needs the whole motion; leave out one of the "
-                                "two");
+    throw std::invalid_argument(
+        "--resume: a run with " + trajectory_for +
+        " cannot continue from a checkpoint, because it needs the whole motion; omit one of the two options");
 }
 
 /// The command that resumes, as typed.
@@ -109,11 +109,11 @@ void write_answer(const std::filesystem::path &folder, const Result &result, con
   {
     if (!result.run->interrupted || resuming.empty())
       throw;
-    throw coupling::WriteFailure(std::string(failure.what()) +
-                                 (std::filesystem::exists(folder / checkpoint_name)
-                                      ? "\n  the run was interrupted; " + resuming + " goes on from its last checkpoint"
-                                      : "\n  the run was interrupted, and no checkpoint could be kept: it cannot go on "
-                                        "from there"));
+    throw coupling::WriteFailure(
+        std::string(failure.what()) +
+        (std::filesystem::exists(folder / checkpoint_name)
+             ? "\n  the run was interrupted; " + resuming + " continues from its last checkpoint"
+             : "\n  the run was interrupted without a checkpoint, so it cannot be continued"));
   }
 }
 
@@ -166,19 +166,19 @@ int run_scene(const CommonOptions &options, const CheckpointRequest &requested, 
   if (!result.run->failure.empty())
   {
     const std::string message = (is_wanted_end(*result.run) ? "a switch ended the run: " : "the computation failed: ") +
-                                result.run->failure + "\n  what was computed up to then is in " + folder.string();
+                                result.run->failure + "\n  results up to that time are in " + folder.string();
     std::cerr << "gestell: " << message << '\n';
     error_in_json(message);
     return exit_failed;
   }
   if (outcome == AnalysisOutcome::failed)
   {
-    std::cerr << "gestell: an analysis of the run failed, as a warning says; the run itself is in " << folder.string()
+    std::cerr << "gestell: an analysis of the run failed (see the warning); the run itself is in " << folder.string()
               << '\n';
     return exit_failed;
   }
   if (result.run->interrupted && trajectory_for.empty() && std::filesystem::exists(folder / checkpoint_name))
-    std::cerr << "gestell: interrupted; " << resuming(options, folder) << " goes on from there\n";
+    std::cerr << "gestell: interrupted; " << resuming(options, folder) << " continues from there\n";
   return result.run->interrupted || outcome == AnalysisOutcome::interrupted ? exit_interrupted : exit_done;
 }
 

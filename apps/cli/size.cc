@@ -48,7 +48,7 @@ SizedModel found(const Scene &scene, const std::vector<OutputName> &outputs, con
   options.on_rung     = [begins = true](const SizeRung &rung) mutable
   {
     if (std::exchange(begins, false))
-      std::cout << "    cells [m]   coordinates  modes  method                CPU [s]  error/allowed, most by\n";
+      std::cout << "  elements [m]         DOFs  modes  method                CPU [s]  error/allowed, largest from\n";
     std::cout << rung_text(rung) << std::endl;
   };
   return size_search(scene, outputs, options);
@@ -57,7 +57,7 @@ SizedModel found(const Scene &scene, const std::vector<OutputName> &outputs, con
 int size_scene(const CommonOptions &options, const SizeCommand &requested)
 {
   if (requested.tolerance == 0.)
-    throw std::invalid_argument("--tolerance is missing: the relative error that each output may have, such as 0.01");
+    throw std::invalid_argument("--tolerance is missing; give the allowed relative error of each output, such as 0.01");
   Session session(options.input, options.overrides, options.scripts);
   session.check_run();
   const Scene                &scene   = session.scene();
@@ -86,7 +86,7 @@ int size_scene(const CommonOptions &options, const SizeCommand &requested)
     result.warnings.push_back("no model keeps all outputs within the tolerance: " + model.result.stopped);
   if (requested.exhaustive && model.result.all.empty())
     result.warnings.push_back(
-        "--exhaustive: all models are compared with the finer one of the proof, and there is none: " +
+        "--exhaustive: models are compared with the finer model of the verification, and there is none: " +
         model.result.finer);
   write_results(folder, result);
   if (!model.result.all.empty())

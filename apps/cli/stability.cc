@@ -39,7 +39,7 @@ void require_atlas(const std::filesystem::path &file, const std::filesystem::pat
   if (there ? heading != "# Failure atlas" : std::filesystem::exists(std::filesystem::symlink_status(figures)))
     throw std::invalid_argument(
         "--atlas: " + (there ? file : figures).string() +
-        " already exists and is not a failure atlas, so that it is not replaced; give another name");
+        " already exists and is not a failure atlas, so it is not replaced; choose another name");
 }
 
 /// Writes the failure atlas to `file` (Markdown) and its figures into a folder next to it; returns an ExitCode.
@@ -69,7 +69,7 @@ int write_atlas(const std::filesystem::path &file, bool quiet)
       }
   }
   write_file(file, atlas_markdown(entries, file.stem().string()));
-  std::cout << entries.size() << " places where methods fail: " << file.string() << '\n';
+  std::cout << entries.size() << " cases of failing methods: " << file.string() << '\n';
   return failed == 0 ? exit_done : exit_failed;
 }
 
@@ -84,7 +84,7 @@ void check_ratios(const std::vector<double> &zetas)
 {
   for (const double zeta : zetas)
     if (!(zeta >= 0.) || zeta > 10.)
-      throw std::invalid_argument("--zeta is " + short_text(zeta) + "; damping ratios lie between 0 and 10");
+      throw std::invalid_argument("--zeta is " + short_text(zeta) + "; damping ratios must be between 0 and 10");
 }
 
 /// The scene's modes, its method and the others at its step.

@@ -38,8 +38,8 @@ public:
 
 StudyLock::StudyLock(const std::filesystem::path &folder, const StudyShare &share)
     : FolderLock(folder, share.is_whole() ? Kind::alone : Kind::beside_others,
-                 share.is_whole() ? "is making a study there" : "is making a share of a study there",
-                 ", or give another folder with -o")
+                 share.is_whole() ? "is running a study there" : "is running a share of a study there",
+                 ", or name another folder with -o")
 {
 }
 
@@ -63,7 +63,7 @@ void print_rows(const StudyAnswer &answer, const StudyFile &study, const StudyCa
     std::cout << ", "
               << std::count_if(answer.table.runs.begin(), answer.table.runs.end(),
                                [](const StudyRun &run) { return run.status == RunStatus::waiting; })
-              << " to be made; --resume goes on";
+              << " remaining; --resume continues";
   const bool merged = call.share.is_whole() || call.waits_for_shares;
   std::cout << "\nrows: " << (call.folder / (merged ? "runs.csv" : StudyFolder::name_of(call.share))).string() << '\n';
 
@@ -89,7 +89,7 @@ void share_among_ranks(const coupling::Launch &ranks, StudyCall &call)
   if (ranks.size == 1)
     return;
   if (!call.share.is_whole())
-    throw std::invalid_argument("--share: ranks of mpirun share the runs among them; leave one of both out");
+    throw std::invalid_argument("--share: the ranks of mpirun already share the runs; remove --share or mpirun");
   call.share            = {ranks.rank + 1, ranks.size, true};
   call.waits_for_shares = ranks.rank == 0;
 }
@@ -113,10 +113,9 @@ int study_scene(const CommonOptions &options, const StudyCommand &requested)
   require_writable(call.folder);
   OwnFolder(call.folder).require_free(study_names(), study_inputs(options, study));
   if (OwnFolder(call.folder).owns("summary.json"))
-    throw std::invalid_argument(
-        "result folder " + call.folder.string() +
-        ": it holds results of another command, whose report would be replaced; name another folder "
-        "with -o DIR, or remove its summary.json.");
+    throw std::invalid_argument("result folder " + call.folder.string() +
+                                ": it contains results of another command, whose report would be overwritten; name "
+                                "another folder with -o DIR, or remove its summary.json.");
   const StudyLock lock(call.folder, call.share);
   if (!lock.note().empty() && speaks)
     std::cerr << "gestell: warning: " << lock.note() << '\n';
@@ -137,7 +136,7 @@ int study_scene(const CommonOptions &options, const StudyCommand &requested)
     return exit_done; // a share
   if (answer.table.n_done() == 0)
   {
-    std::cerr << "gestell: the computation failed: no run of the study ended well\n";
+    std::cerr << "gestell: the computation failed: no run of the study succeeded\n";
     return exit_failed;
   }
   const StudyFindings findings = StudyAnalysis(study, analysis, runner, call).of(answer);

@@ -46,7 +46,8 @@ void require_same_calls(const coupling::Launch &launched, const std::string &wor
   throw std::invalid_argument(
       std::string(launched.by) + ": " + std::to_string(n_others) + " of " + std::to_string(launched.size) +
       " ranks were started with another command line or working directory than rank 0 (gestell" + words + ", in " +
-      working_folder() + "), but ranks compute one thing together; call all of them alike, or say " +
+      working_folder() +
+      "), but all ranks compute one case together; start all of them with the same command, or use " +
       coupling::way_of_cases);
 }
 
@@ -58,8 +59,8 @@ MpiRun::MpiRun(const std::string &words) : launch_(coupling::launch()), team_(co
     return;
   if (!team_)
     throw std::invalid_argument(
-        std::string(launch_.by) + ": this build has no finite element side, for which " + std::to_string(launch_.size) +
-        " processes could compute together; build it with GESTELL_FEM=ON, or say " + coupling::way_of_cases);
+        std::string(launch_.by) + ": this build has no finite element part, for which " + std::to_string(launch_.size) +
+        " processes could compute together; build it with GESTELL_FEM=ON, or use " + coupling::way_of_cases);
   require_same_program(launch_);
   require_same_calls(launch_, words, coupling::ranks_called_otherwise(words, working_folder()));
 }
@@ -74,7 +75,7 @@ void MpiRun::tell_idle() const
 {
   if (launch_.size > 1 && launch_.rank == 0 && !coupling::plugin_is_loaded("libgestell_frame.so"))
     std::cerr << "gestell: ranks without work: " + std::to_string(launch_.size - 1) + " of " +
-                     std::to_string(launch_.size) + "; there was no frame to compute\n"; // at once: mpirun mixes lines
+                     std::to_string(launch_.size) + "; no frame had to be computed\n"; // at once: mpirun mixes lines
 }
 
 bool MpiRun::serves() const

@@ -169,7 +169,7 @@ int verify(const VerifyOptions &requested)
   OwnFolder(folder).require_free({"verification.html", "verification.md", "verification.csv"});
   if (!requested.docs.empty() && !fs::is_directory(requested.docs))
     throw std::invalid_argument("--renew: there is no folder '" + requested.docs +
-                                "'; it takes the folder of the documents, docs");
+                                "'; name the documentation folder docs");
   const int    n_skipped = leave_long_ones(files, requested);
   Verification all       = computed(files);
   all.n_skipped          = n_skipped;
@@ -201,7 +201,7 @@ Command verify_command()
        {"-o,--output", &own->folder, "folder for the manual (default results/verification)"},
        {"--all", &own->all, "include long cases"},
        {"--list", &own->list, "only list the cases"},
-       {"--renew", &own->docs, "also write trust/verification.md in this folder of documents"}},
+       {"--renew", &own->docs, "also write trust/verification.md in this documentation folder"}},
       [own](const CommonOptions &) { return verify(*own); }};
 }
 

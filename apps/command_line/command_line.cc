@@ -1,5 +1,6 @@
 #include "apps/command_line/command_line.h"
 
+#include "apps/output/text/page_language.h"
 #include "apps/session/commit.h"
 #include "apps/version.h"
 #include "fem/values/named_file.h"
@@ -71,7 +72,7 @@ std::vector<std::string> command_names(const CLI::App &program)
 CLI::Validator not_empty()
 {
   return CLI::Validator([](const std::string &text)
-                        { return text.empty() ? "is empty; give it a value, or leave it out" : std::string(); },
+                        { return text.empty() ? "is empty; give a value, or omit the option" : std::string(); },
                         "");
 }
 
@@ -96,9 +97,13 @@ void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
                         : "threads of linear algebra for the frame, or number of parts reduced at a time (default 1)")
       ->check(above_zero());
   command.add_flag("--quiet", options.quiet, "no progress on standard error");
+  command
+      .add_option_function<std::string>("--language", choose_page_language,
+                                        "language of headings, column heads and captions of the report: en or de")
+      ->check(CLI::IsMember(page_languages()));
   command.add_flag_callback(
       "--trust-scripts", [&options] { options.scripts = fem::Scripts::trusted; },
-      "accept gmsh scripts (.geo) unchecked; they may run programs and write files");
+      "accept gmsh scripts (.geo) without a check; they may run programs and write files");
   if (cad)
     return;
   command

@@ -38,7 +38,7 @@ std::string standard_output_failure()
   if (std::cout || !has_reader(STDOUT_FILENO))
     return "";
   const std::string reason = errno != 0 ? std::strerror(errno) : "an earlier part of it was lost";
-  return "standard output: cannot be written (" + reason + "); results that were asked for in a folder are there";
+  return "standard output: cannot be written (" + reason + "); results in a folder are complete";
 }
 
 } // namespace gestell::apps

@@ -80,7 +80,7 @@ fmi2Status answered(fmi2Component c, const char *function, std::initializer_list
     }
     catch (const std::bad_alloc &)
     {
-      return failed(fmi2Fatal, "the memory does not suffice");
+      return failed(fmi2Fatal, "out of memory");
     }
     catch (const std::exception &error)
     {

@@ -46,7 +46,7 @@ std::filesystem::path folder_of(const std::string &uri)
       path = path.substr(std::min(path.find('/', 2), path.size())); // whatever host it names is this one
   }
   else if (uri.find("://") != std::string::npos)
-    throw std::invalid_argument("the resources lie at '" + uri + "'; they can be read from file:// only");
+    throw std::invalid_argument("the resources are at '" + uri + "'; only file:// can be read");
   std::string decoded;
   for (std::size_t i = 0; i < path.size(); ++i)
     if (path[i] == '%' && i + 2 < path.size() && std::isxdigit(static_cast<unsigned char>(path[i + 1])) &&
@@ -63,7 +63,7 @@ std::filesystem::path folder_of(const std::string &uri)
 std::unique_ptr<FmuModel> model_at(const char *guid, const char *resources)
 {
   if (!resources || !*resources)
-    throw std::invalid_argument("the place of the resources is not given; the scene and its frame lie there");
+    throw std::invalid_argument("the location of the resources is missing; they contain the scene and its frame");
   const std::filesystem::path folder = folder_of(resources);
   if (!std::filesystem::exists(folder / "scene.toml"))
     throw std::invalid_argument("there is no scene.toml in " + folder.string() + "; unpack the whole FMU");
@@ -80,8 +80,7 @@ void require_processor()
 #if defined(__AVX2__) && defined(__FMA__)
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
     throw std::runtime_error(
-        "the library of this FMU was built for processors with AVX2, which this one has not; export "
-        "it from a build with GESTELL_NATIVE=OFF");
+        "the library of this FMU needs a processor with AVX2; export it from a build with GESTELL_NATIVE=OFF");
 #endif
 }
 
@@ -111,7 +110,7 @@ Variable variable_of(const FmuModel &model, fmi2ValueReference reference)
     ++group;
   }
   throw std::invalid_argument("there is no variable with the value reference " + std::to_string(reference) +
-                              "; they go from 0 to " + std::to_string(all.size() - 1));
+                              "; valid: 0 to " + std::to_string(all.size() - 1));
 }
 
 fmi2Status refuse_type(fmi2Component c, const char *function, std::size_t n) noexcept
@@ -148,7 +147,7 @@ void set_value(FmuComponent &own, fmi2ValueReference reference, double value)
 {
   const Variable variable = variable_of(*own.model, reference);
   if (variable.group == Variable::output)
-    throw std::invalid_argument("'" + variable.variable.name + "' is an output, which the machine tells");
+    throw std::invalid_argument("'" + variable.variable.name + "' is an output, which cannot be set");
   if (own.phase == Phase::initialising)
     own.model->forget_start();
   if (variable.group == Variable::input)
@@ -163,8 +162,8 @@ fmi2Status step_to(FmuComponent &own, double t, double length)
   if (!model.ended().empty())
     throw std::invalid_argument("the run has ended: " + model.ended());
   if (own.stops && t + length > own.stop + 1e-9 * std::max(std::abs(own.stop), length))
-    throw std::invalid_argument("the step goes to " + exact_text(t + length) + " s, beyond the stop time " +
-                                exact_text(own.stop) + " s that was set up");
+    throw std::invalid_argument("the step ends at " + exact_text(t + length) + " s, beyond the stop time " +
+                                exact_text(own.stop) + " s");
   try
   {
     model.step(t, length);
@@ -266,8 +265,8 @@ FMI2_SHOWN fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean, fmi2Real
                                                   " s, but the scene begins at " + gestell::exact_text(begin) + " s");
                     if (stops && !(stop > begin))
                       throw std::invalid_argument("the stop time is " + gestell::exact_text(stop) +
-                                                  " s; it must lie behind the start time " +
-                                                  gestell::exact_text(begin) + " s");
+                                                  " s; it must be after the start time " + gestell::exact_text(begin) +
+                                                  " s");
                     own.stops = stops != 0;
                     own.stop  = stop;
                     return fmi2OK;
@@ -361,7 +360,7 @@ FMI2_SHOWN fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2Val
                       if (orders[i] != 1)
                         throw std::invalid_argument("the derivative of order " + std::to_string(orders[i]) + " of '" +
                                                     variable.variable.name +
-                                                    "' is not used; inputs follow straight lines, order 1");
+                                                    "' is not used; inputs are linear (order 1)");
                       own.model->set_input_rate(variable.number, values[i]);
                     }
                     return fmi2OK;

@@ -25,7 +25,7 @@ fmi2Status no_function(fmi2Component c, const char *function, const char *reason
   return answered(c, function, always, [reason](FmuComponent &) -> fmi2Status { throw std::invalid_argument(reason); });
 }
 
-constexpr const char *never_pending = "steps are done when fmi2DoStep returns; none is under way";
+constexpr const char *never_pending = "a step is complete when fmi2DoStep returns; none is pending";
 
 /// Phase and stop time, then the state.
 std::string bytes_of(const KeptState &kept)
@@ -44,7 +44,7 @@ KeptState kept_of(const std::string &bytes)
   KeptState kept{FmuState::of_bytes(bytes.substr(head_size)), Phase(phase), bytes[1] == '1', 0.};
   std::memcpy(&kept.stop, bytes.data() + 2, sizeof kept.stop);
   if (kept.stops && !std::isfinite(kept.stop))
-    throw std::invalid_argument("the state holds a stop time that is not a finite number; its bytes are damaged");
+    throw std::invalid_argument("the state contains a stop time that is not finite; its bytes are damaged");
   return kept;
 }
 

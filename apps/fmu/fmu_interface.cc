@@ -140,7 +140,7 @@ void tell_names_apart(const Scene &scene, FmuInterface &interface)
     for (const FmuVariable &variable : *group)
       if (!names.insert(variable.name).second)
         throw std::invalid_argument(scene.file + ": '" + variable.name +
-                                    "' is an input and a signal; in an FMU each needs a name of its own");
+                                    "' is an input and a signal; in an FMU names must be unique");
   for (FmuVariable &parameter : interface.parameters)
     if (names.count(parameter.name) > 0)
       parameter.name = "parameters." + parameter.name;
@@ -189,9 +189,8 @@ void require_coordinate(const Scene &scene, const ElementRequest &element, const
 {
   for (const MotionMeasure &motion : element.measures)
     if (measure_of(motion, machine.model()).empty())
-      throw std::invalid_argument(
-          scene.element_places.at(element.name) + ": element." + element.name +
-          ": the input acts on a motion that the machine has not; take a coordinate that it has");
+      throw std::invalid_argument(scene.element_places.at(element.name) + ": element." + element.name +
+                                  ": the input acts on a DOF that the machine does not have; use another coordinate");
 }
 
 } // namespace
@@ -213,7 +212,7 @@ FmuInterface fmu_interface(const SceneNode &root, const Scene &scene, const coup
       else if (known->unit != unit || known->start != input->value)
         throw std::invalid_argument(scene.element_places.at(element.name) + ": the input '" + input->name + "' is in " +
                                     unit + " here and in " + known->unit +
-                                    " elsewhere, or begins with another value there; give it a name of its own");
+                                    " elsewhere, or has another initial value there; use different names");
     }
   for (const coupling::Signal &signal : scene_signals(scene, machine))
     interface.outputs.push_back(measured(signal.name, signal.unit));

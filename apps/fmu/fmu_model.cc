@@ -41,7 +41,7 @@ coupling::Machine machine_at_hand(const Scene &scene)
   case FramePath::from_file:
     return build_machine(scene, frame_at_hand(scene));
   default:
-    throw std::invalid_argument(scene.file + ": its frame is still to be reduced; export the FMU again");
+    throw std::invalid_argument(scene.file + ": its frame is not reduced; export the FMU again");
   }
 }
 
@@ -80,7 +80,7 @@ FmuResources FmuResources::read(const std::filesystem::path &folder)
   const std::string path = (folder / "fmu.toml").string();
   const SceneNode   root = parse_toml_file(path), *guid = root.find("guid"), *frozen = root.find("frozen");
   if (!guid || !frozen)
-    throw std::invalid_argument(path + ": needs 'guid' and 'frozen'; it is not as gestell export wrote it");
+    throw std::invalid_argument(path + ": needs 'guid' and 'frozen'; it was changed after gestell export");
   FmuResources resources{guid->text, {}};
   for (const SceneNode &name : frozen->elements)
     resources.frozen.insert(name.text);
@@ -204,9 +204,9 @@ void FmuModel::step(double t, double length)
   if (!run_->is_now(t))
     throw std::invalid_argument("the step begins at " + exact_text(t) + " s, but the machine is at " +
                                 exact_text(time()) +
-                                " s; steps follow each other, and a state that was kept before leads back");
+                                " s; steps must follow each other (restore a saved state to go back)");
   if (!(length > 0.) || !std::isfinite(length))
-    throw std::invalid_argument("the step is " + exact_text(length) + " s long; it needs a length above zero");
+    throw std::invalid_argument("the step is " + exact_text(length) + " s long; its length must be above zero");
   if (apply_inputs())
     run_->load_jumped();
   run_->go_on_to(t + length);

@@ -44,7 +44,7 @@ public:
   {
     const std::vector<double> values = numbers();
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
-      throw std::invalid_argument("the state holds numbers that are not finite; its bytes are damaged");
+      throw std::invalid_argument("the state contains numbers that are not finite; its bytes are damaged");
     return values;
   }
 

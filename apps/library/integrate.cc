@@ -132,7 +132,7 @@ OwnMotion integrate(const OwnSystem &system, const std::vector<double> &q, const
   require_grid(end, output_step);
   const Adapter adapter(system);
   if (!Eigen::FullPivLU<Matrix>(matrix_of("M", system.M, system.n, system.n)).isInvertible())
-    throw std::invalid_argument("integrate: M is singular; give every coordinate a mass, or leave it out");
+    throw std::invalid_argument("integrate: M is singular; give every coordinate a mass, or remove it");
   coupling::MethodOptions options = coupling::options_of(method.name, method.order);
   options.step                    = method.step == 0. && method.tolerance > 0. ? end : method.step;
   options.tolerance               = method.tolerance;

@@ -98,7 +98,7 @@ Holder holder_in(int file)
                               const std::string &doing, const std::string &way_out)
 {
   throw std::invalid_argument(folder.string() + ": process " + process + (host.empty() ? "" : " on " + host) + " " +
-                              doing + "; wait until it has ended" + way_out);
+                              doing + "; wait until it ends" + way_out);
 }
 
 constexpr const char *computes = "is computing results for this folder";
@@ -106,7 +106,7 @@ constexpr const char *computes = "is computing results for this folder";
 } // namespace
 
 FolderLock::FolderLock(const fs::path &folder)
-    : FolderLock(folder, Kind::alone, computes, ", or give another folder with -o DIR")
+    : FolderLock(folder, Kind::alone, computes, ", or name another folder with -o DIR")
 {
 }
 
@@ -200,7 +200,7 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
       continue;
     if (file_ < 0)
     {
-      note_ = path_.string() + " cannot be made (" + std::strerror(errno) + ")";
+      note_ = path_.string() + " cannot be created (" + std::strerror(errno) + ")";
       break;
     }
     struct flock lock = whole_range(type);
@@ -225,7 +225,7 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
         file_ = -1;
         continue;
       }
-      note_ = std::string("its file system has no locks (") + std::strerror(reason) + ")";
+      note_ = std::string("its file system does not support locks (") + std::strerror(reason) + ")";
       unlink(path_.c_str());
       close(file_);
       file_ = -1;
@@ -242,9 +242,9 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
     file_ = -1;
   }
   if (note_.empty())
-    note_ = "others make and remove it all the time";
-  note_ = reported_.string() + ": " + note_ +
-          ", so nothing keeps a second process from writing there at the same time; see to that yourself";
+    note_ = "other processes keep creating and removing it";
+  note_ =
+      reported_.string() + ": " + note_ + "; the folder is not locked, so make sure that no other process writes there";
 }
 
 } // namespace gestell::apps

@@ -32,12 +32,12 @@ FirstOrderForm::FirstOrderForm(const coupling::SecondOrderSystem &system)
 {
   if (system.joints().n_rows() > 0)
     throw std::invalid_argument("peers: the system has " + std::to_string(system.joints().n_rows()) +
-                                " constraints; they are compared without joints only.");
+                                " constraints; other solvers support machines without joints only.");
   if (const auto &massless = system.linear().virtual_coordinates(); !massless.empty())
     throw std::invalid_argument("peers: " + system.linear().coordinate_name(massless.front()) +
-                                " is a state without mass; they are compared where every coordinate has one.");
+                                " has no mass; other solvers need mass in every coordinate.");
   local_.resize(system);
-  coupling::refuse_acceleration_forces(system, local_, "the first-order form of the peers");
+  coupling::refuse_acceleration_forces(system, local_, "the first-order form for other solvers");
   small_.resize(n_u_);
   condense(*mass_, system_.forces().directions(), column_, a_, Y_M_, S_M_);
 }
@@ -246,7 +246,7 @@ void FirstOrderForm::know_dense()
   if (dense_known_)
     return;
   if (!system_.linear().dense_matrices(M_, B_, C_))
-    throw std::invalid_argument("peers: the system is too large for dense matrices; take the condensed solver.");
+    throw std::invalid_argument("peers: the system is too large for dense matrices; use the condensed solver.");
   const auto lu = M_.partialPivLu();
   M_inv_B_      = lu.solve(B_);
   M_inv_C_      = lu.solve(C_);

@@ -43,7 +43,7 @@ void check(const coupling::SecondOrderSystem &system, const PeerProblem &problem
             "vectors of " + std::to_string(x->size()) + " numbers for " + std::to_string(n) + " coordinates.");
   require((problem.q_scale.array() > 0.).all() && (problem.v_scale.array() > 0.).all(),
           "every coordinate needs a positive scale.");
-  require(options.tolerance > 0. && options.tolerance < 1., "the tolerance must lie between 0 and 1.");
+  require(options.tolerance > 0. && options.tolerance < 1., "the tolerance must be between 0 and 1.");
   require(!problem.samples.empty() && std::is_sorted(problem.samples.begin(), problem.samples.end()) &&
               problem.samples.front() >= problem.t,
           "the instants of the samples must ascend from the start.");
@@ -52,9 +52,9 @@ void check(const coupling::SecondOrderSystem &system, const PeerProblem &problem
           "order " + std::to_string(options.order) +
               "; BDF has 1 to 5 (PETSc 6), Adams 1 to 12, explicit Runge-Kutta 3, 4, 5, 6 or 8.");
   require((options.kind == PeerKind::petsc_alpha) == (options.step > 0.),
-          "PETSc alpha2 takes a fixed step, all others choose theirs.");
-  require(!petsc || !options.events, "PETSc does not locate events; leave them out.");
-  require(!petsc || options.solver == PeerSolver::condensed, "PETSc has the condensed solver only.");
+          "PETSc alpha2 needs a fixed step; all others control their step.");
+  require(!petsc || !options.events, "PETSc does not locate events; switch them off.");
+  require(!petsc || options.solver == PeerSolver::condensed, "PETSc supports the condensed solver only.");
 }
 
 std::unique_ptr<Stepper> make_stepper(Callbacks &callbacks, const PeerProblem &problem, const PeerOptions &options)

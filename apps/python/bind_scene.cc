@@ -54,7 +54,7 @@ void bind_scene(py::module_ &module)
     analyses[py::str(entry.name)] = py::make_tuple(entry.does, options);
   }
   module.attr("analyses") = analyses;
-  py::class_<PythonScene>(module, "Scene", "A scene as gestell.Scene holds it.")
+  py::class_<PythonScene>(module, "Scene", "Contents of a gestell.Scene.")
       .def_static("of_file", &PythonScene::of_file)
       .def_static("of_text", &PythonScene::of_text)
       .def_static("of_values", &PythonScene::of_values)

@@ -87,15 +87,16 @@ std::string in_python(std::string message)
 
 void bind_errors(py::module_ &module)
 {
-  static py::object input = exception_type(
-      "gestell.InputError", "Wrong input: the text says place, value, what is needed, way out.", PyExc_ValueError);
-  static py::object scene  = exception_type("gestell.SceneError",
-                                            "Something is wrong in a scene: `file` (None: it is none), `line` (None: of "
-                                             "the whole) and `key`, \"element.rod.stiffness\" (None: none is named).",
-                                            input);
-  static py::object failed = exception_type(
-      "gestell.ComputationFailed",
-      "The computation failed; `result` holds what was computed until then, None if nothing was.", PyExc_RuntimeError);
+  static py::object input =
+      exception_type("gestell.InputError", "Wrong input; the message gives location, value, requirement and remedy.",
+                     PyExc_ValueError);
+  static py::object scene = exception_type("gestell.SceneError",
+                                           "Error in a scene: `file` (None: it is none), `line` (None: of "
+                                           "the whole) and `key`, \"element.rod.stiffness\" (None: none is named).",
+                                           input);
+  static py::object failed =
+      exception_type("gestell.ComputationFailed",
+                     "The computation failed; `result` contains the results so far, or None.", PyExc_RuntimeError);
   for (const py::object *type : {&input, &scene, &failed})
     type->inc_ref(); // for as long as the interpreter runs
   failed.attr("result")            = py::none();
@@ -126,8 +127,8 @@ void bind_errors(py::module_ &module)
         catch (const std::bad_alloc &)
         {
           PyErr_SetString(PyExc_MemoryError,
-                          "memory is at its end: take a coarser mesh (mesh.size), fewer modes (reduction.modes), a "
-                          "larger step of what is kept (output.step, output.picture_step, output.stress.step), or a "
+                          "out of memory: take a coarser mesh (mesh.size), fewer modes (reduction.modes), larger "
+                          "output intervals (output.step, output.picture_step, output.stress.step), or a "
                           "machine with more memory");
         }
         catch (const std::runtime_error &none)

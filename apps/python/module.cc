@@ -119,9 +119,9 @@ void bind_values(py::module_ &module)
       .def_readonly("name", &coupling::SignalSummary::name, "Name of the signal.")
       .def_readonly("unit", &coupling::SignalSummary::unit, "Unit of min, max and final, in SI.")
       .def_readonly("min", &coupling::SignalSummary::min, "Smallest value, in `unit`.")
-      .def_readonly("t_min", &coupling::SignalSummary::t_min, "When it is smallest [s].")
+      .def_readonly("t_min", &coupling::SignalSummary::t_min, "Time of the smallest value [s].")
       .def_readonly("max", &coupling::SignalSummary::max, "Largest value, in `unit`.")
-      .def_readonly("t_max", &coupling::SignalSummary::t_max, "When it is largest [s].")
+      .def_readonly("t_max", &coupling::SignalSummary::t_max, "Time of the largest value [s].")
       .def_readonly("final", &coupling::SignalSummary::final, "Value at the end of the run, in `unit`.")
       .def("__repr__",
            [](const coupling::SignalSummary &peak)
@@ -129,17 +129,17 @@ void bind_values(py::module_ &module)
              return py::str("Peak({}: min {:.6g} at {:.6g} s, max {:.6g} at {:.6g} s, {})")
                  .format(peak.name, peak.min, peak.t_min, peak.max, peak.t_max, peak.unit);
            });
-  py::class_<coupling::Event>(module, "Event", "A law changes its branch: t [s], name of the element, kind.")
-      .def_readonly("t", &coupling::Event::t, "When it happens [s].")
+  py::class_<coupling::Event>(module, "Event", "Event (change of branch of a law): t [s], name of the element, kind.")
+      .def_readonly("t", &coupling::Event::t, "Time of the event [s].")
       .def_readonly("name", &coupling::Event::name, "Name of the element, joint or switch.")
-      .def_readonly("kind", &coupling::Event::kind, "What happens, \"contact\", \"sticks\".")
+      .def_readonly("kind", &coupling::Event::kind, "Kind of the event, such as \"contact\" or \"sticks\".")
       .def("__repr__", [](const coupling::Event &event)
            { return py::str("Event({:.9g} s: {}, {})").format(event.t, event.name, event.kind); });
 }
 
 void bind_finding(py::module_ &module)
 {
-  py::class_<coupling::Finding>(module, "Finding", "What a check found.")
+  py::class_<coupling::Finding>(module, "Finding", "Finding of a check.")
       .def_property_readonly(
           "severity",
           [](const coupling::Finding &finding)
@@ -147,15 +147,14 @@ void bind_finding(py::module_ &module)
           "\"warning\" or \"error\".")
       .def_readonly("id", &coupling::Finding::id, "Kind of finding, \"energy-balance\"; empty: not of the run.")
       .def_readonly("place", &coupling::Finding::place, "Element, joint, switch, signal or key; empty: the whole run.")
-      .def_readonly("text", &coupling::Finding::text, "What is wrong, where, and what to do.")
+      .def_readonly("text", &coupling::Finding::text, "Problem, location and remedy.")
       .def("__repr__", [](const coupling::Finding &finding)
            { return py::str("Finding({}, {}: {})").format(finding.id, finding.place, finding.text); });
 }
 
 void bind_result(py::module_ &module)
 {
-  py::class_<PythonResult, std::shared_ptr<PythonResult>>(module, "Result",
-                                                          "What was computed of a scene; arrays show its memory.")
+  py::class_<PythonResult, std::shared_ptr<PythonResult>>(module, "Result", "Results of a scene; arrays are views.")
       .def("__getitem__", &column_view, "name"_a, "History of a signal [rows], a view.")
       .def("__contains__",
            [](const PythonResult &result, const std::string &name)
@@ -179,7 +178,7 @@ void bind_result(py::module_ &module)
           "Warnings of scene, frame and run, each once.")
       .def_property_readonly(
           "findings", [](const PythonResult &result) { return apps::all_findings(result.result()); },
-          "The same as values with severity, id and place, a list of Finding.")
+          "The same warnings as a list of Finding, with severity, id and place.")
       .def_property_readonly(
           "scene", [](const PythonResult &result) { return result.result().scene; }, "Name of the scene.")
       .def_property_readonly(
@@ -194,7 +193,7 @@ void bind_result(py::module_ &module)
           "damping_ratios",
           [](const PythonResult &result)
           { return py::array(py::cast(numbers_of<&coupling::Mode::damping_ratio>(result))); },
-          "Damping ratio of each mode [1]; nan where it does not vibrate.")
+          "Damping ratio of each mode [1]; nan without vibration.")
       .def_property_readonly(
           "shapes", [](const PythonResult &result) { return shapes_of(result.result().coupled_modes); },
           "Mode shapes in columns [coordinates x modes], mass normalised.")
@@ -210,7 +209,7 @@ void bind_result(py::module_ &module)
           "Times of `states` [s].")
       .def_property_readonly("states", &states_of, "Coordinates at picture_times [times x coordinates], m or rad.")
       .def_property_readonly("sensitivities", &sensitivities_of,
-                             "Derivatives of each output by each key, a dict of dicts in SI; None: not asked for.")
+                             "Derivatives of each output by each key, a dict of dicts in SI; None: not requested.")
       .def_property_readonly("_arrays", &arrays_of)
       .def_property_readonly("_periodic",
                              [](const PythonResult &result) -> py::object

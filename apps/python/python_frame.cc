@@ -65,17 +65,17 @@ void bind_reduced(py::module_ &module)
       .def_property_readonly("coordinates", &PythonFrame::coordinates, "Names of rows: interfaces first, then modes.")
       .def_property_readonly(
           "n_interface", [](const PythonFrame &frame) { return frame.frame->n_interface; },
-          "Number of interface coordinates, which come first.")
+          "Number of interface DOFs, which come first.")
       .def_property_readonly(
           "n_full", [](const PythonFrame &frame) { return frame.frame->n_full; },
-          "Number of coordinates of the frame that was reduced.")
+          "Number of DOFs of the unreduced frame.")
       .def_property_readonly(
           "mass", [](const PythonFrame &frame) { return frame.frame->mass; }, "Mass of the frame [kg].")
       .def_property_readonly(
-          "notes", [](const PythonFrame &frame) { return frame.frame->all_notes(); }, "Warnings of the making.")
+          "notes", [](const PythonFrame &frame) { return frame.frame->all_notes(); }, "Warnings of the reduction.")
       .def_property_readonly(
           "statements", [](const PythonFrame &frame) { return frame.frame->statements; },
-          "What was checked in the making and is as it should be.")
+          "Checks of the reduction that passed.")
       .def_property_readonly(
           "frequencies_hz",
           [](const PythonFrame &frame) -> const Eigen::VectorXd & { return frame.frame->frequencies_hz; }, view,
@@ -91,28 +91,25 @@ void bind_reduced(py::module_ &module)
 void bind_full(py::module_ &module)
 {
   py::class_<PythonFullFrame, std::shared_ptr<PythonFullFrame>>(
-      module, "FullFrame", "A frame M q'' + B q' + C q = f as it is assembled: sparse matrices, not reduced.")
+      module, "FullFrame", "An assembled frame M q'' + B q' + C q = f: sparse matrices, not reduced.")
       .def(
           "csc",
           [](const py::object &full, const std::string &name)
           { return csc_views(full, sparse(full.cast<const PythonFullFrame &>(), name)); },
           "name"_a,
-          "M [kg], B [N s/m] or C [N/m] by columns: (values, rows, begins of columns, n), views of what the frame "
-          "holds.")
+          "M [kg], B [N s/m] or C [N/m] by columns: (values, rows, begins of columns, n), views of the frame's memory.")
       .def_property_readonly(
           "n", [](const PythonFullFrame &full) { return full.frame.M.rows(); }, "Number of coordinates.")
       .def_property_readonly("nbytes", &PythonFullFrame::nbytes, "Memory of M, B and C [byte].")
-      .def_property_readonly(
-          "interfaces", &PythonFullFrame::interface_rows,
-          "Rows of each interface, from 0: {\"crown\": {\"ux\": 17, ...}}; motions held are left out.")
+      .def_property_readonly("interfaces", &PythonFullFrame::interface_rows,
+                             "Rows of each interface, from 0: {\"crown\": {\"ux\": 17, ...}}; fixed DOFs are omitted.")
       .def_property_readonly(
           "translations", [](const PythonFullFrame &full) { return full.frame.translations; },
           "q of unit translations of the whole frame [n x 3].")
       .def_property_readonly(
           "mass", [](const PythonFullFrame &full) { return full.frame.mass; }, "Mass of the frame [kg].")
       .def_property_readonly(
-          "notes", [](const PythonFullFrame &full) { return full.frame.notes; },
-          "What to look at in mesh and assembly.")
+          "notes", [](const PythonFullFrame &full) { return full.frame.notes; }, "Remarks about mesh and assembly.")
       .def("__repr__",
            [](const PythonFullFrame &full)
            {

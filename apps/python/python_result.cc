@@ -75,7 +75,7 @@ std::string run_text(const coupling::RunResult &run)
 const coupling::RunResult &PythonResult::run() const
 {
   if (!result_.run)
-    throw std::invalid_argument("nothing was run: modes and frequency responses have no history; call scene.run()");
+    throw std::invalid_argument("no run: modes and frequency responses have no history; call scene.run()");
   return *result_.run;
 }
 

@@ -76,8 +76,8 @@ public:
   MakingFrame()
   {
     if (here)
-      throw std::invalid_argument("progress asks for a frame while one is made, which waits for it; compute the other "
-                                  "frame before the run or after it");
+      throw std::invalid_argument("the progress function requests a frame while another one is being computed; compute "
+                                  "it before or after the run");
     here = true;
   }
   ~MakingFrame() { here = false; }
@@ -189,8 +189,8 @@ fem::FrameMatrices assembled(const Scene &scene, const coupling::Progress &progr
   if (scene.frame.source == apps::FrameSource::matrices)
     return scene.frame.matrices;
   throw std::invalid_argument((scene.frame.place.empty() ? "scene" : scene.frame.place) +
-                              ": the scene has no frame of one piece from CAD or matrices; parts and reduced frames "
-                              "have no unreduced matrices of their own");
+                              ": the scene has no single frame from CAD or matrices; frames of parts and reduced "
+                              "frames have no unreduced matrices");
 }
 
 } // namespace
@@ -437,10 +437,9 @@ std::shared_ptr<PythonFrame> PythonScene::frame() const
                          const Scene scene = self.scene();
                          auto        frame = shared_frame(scene, apps::stoppable(watch.progress, watch.interruption));
                          if (!frame)
-                           throw std::invalid_argument(
-                               scene.frame.place +
-                               ": the scene has no frame that is reduced; its matrices are M, B, C of [frame], or "
-                               "reduction.method = \"craig-bampton\" reduces it");
+                           throw std::invalid_argument(scene.frame.place +
+                                                       ": the frame of the scene is not reduced; use the matrices of "
+                                                       "[frame], or set reduction.method = \"craig-bampton\"");
                          return std::make_shared<PythonFrame>(std::move(frame));
                        });
 }

@@ -64,7 +64,7 @@ SceneNode table_node(SceneNode node, const std::string &key, const py::dict &val
   for (const auto &[own, value] : values)
   {
     if (!py::isinstance<py::str>(own))
-      refuse(node, key, "got the key " + py::repr(own).cast<std::string>() + "; keys of a scene are text");
+      refuse(node, key, "got the key " + py::repr(own).cast<std::string>() + "; keys of a scene are strings");
     const auto name = own.cast<std::string>();
     node.entries.emplace_back(
         name, node_of(value, node.place, node.folder, (key.empty() ? "" : key + ".") + apps::written_key(name)));
@@ -91,7 +91,7 @@ SceneNode node_of(py::handle value, const Place &place, const std::string &folde
   constexpr int deepest = 50; // dicts and lists in each other, as tables and arrays of a file
   if (Depth::now() > deepest)
     refuse(node, "",
-           "dicts and lists lie more than " + std::to_string(deepest) + " deep in each other; does one hold itself?");
+           "dicts and lists are nested more than " + std::to_string(deepest) + " deep; does one contain itself?");
   if (py::isinstance<py::dict>(value))
     return table_node(node, key, py::reinterpret_borrow<py::dict>(value));
   if (fill_function_node(value, node))
@@ -111,7 +111,7 @@ SceneNode node_of(py::handle value, const Place &place, const std::string &folde
     const char   *bytes  = PyUnicode_AsUTF8AndSize(text.ptr(), &length);
     PyErr_Clear();
     if (bytes == nullptr)
-      refuse(node, key, "got " + py::repr(py::repr(value)).cast<std::string>() + ", which is no Unicode text");
+      refuse(node, key, "got " + py::repr(py::repr(value)).cast<std::string>() + ", which is not Unicode text");
     node.text.assign(bytes, std::size_t(length));
     return node;
   }
@@ -131,7 +131,7 @@ SceneNode node_of(py::handle value, const Place &place, const std::string &folde
                "scene.signal(NAME, function, of=[...], unit=...)");
   refuse(node, key,
          "got " + written(value) + " of type " + py::str(py::type::of(value).attr("__name__")).cast<std::string>() +
-             "; a scene key is a number, text with a unit, True or False, a list or a dict");
+             "; a scene value is a number, a string with a unit, True or False, a list or a dict");
 }
 
 py::object value_of(const SceneNode &node)

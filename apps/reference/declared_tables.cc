@@ -244,6 +244,9 @@ const std::vector<KeyGroup> &key_groups()
        "Asynchronous motors",
        keys_of("dynamic motor", {"breakdown_torque", "breakdown_slip", "synchronous_speed", "ratio"})},
       {{"element"}, "Friction curve", keys_of("friction", {"stribeck_speed", "stribeck_exponent", "viscous"})},
+      {{"element"},
+       "Engagement",
+       keys_of("brake", {"capacity", "static_capacity", "engagement", "initial_engagement", "waits"})},
       {{"element"}, "Bearing", keys_of("rolling bearing", {"from", "to", "at", "at_from", "at_to", "axis"})},
       {{"element"}, "Stiffness of a contact", joined({contact_keys(), {sliding_friction_key()}})},
       {{"element"}, "Friction of a contact", sliding_friction_key().keys, "friction"}};

@@ -21,27 +21,23 @@ namespace gestell::apps
 namespace
 {
 
-std::string rows(const std::vector<Key> &keys)
-{
-  if (keys.empty())
-    return "";
-  std::string text = "| Key | Description | Type / unit | Default |\n|---|---|---|---|\n";
-  for (const Key &key : keys)
-    text += "| `" + key.name + "` | " + key.meaning + " | " + taken_by(key) + " | " + default_of(key) + " |\n";
-  return text + "\n";
-}
-
 /// "joint" of [joint.NAME].
 std::string family_of(const DeclaredTable &table)
 {
   return table.path.substr(0, table.path.find('.'));
 }
 
-bool is_shared(const Key &key, const KeyGroup &group)
+bool belongs(const KeyGroup &group, const std::string &family)
 {
-  const Key *shared = find_key(group.keys, key.name);
-  return group.of.empty() && shared && shared->meaning == key.meaning && default_of(*shared) == default_of(key) &&
-         taken_by(*shared) == taken_by(key);
+  return std::find(group.families.begin(), group.families.end(), family) != group.families.end();
+}
+
+/// Whether one of the keys has the same row.
+bool has_row(const std::vector<Key> &keys, const Key &key)
+{
+  const Key *other = find_key(keys, key.name);
+  return other && other->meaning == key.meaning && default_of(*other) == default_of(key) &&
+         taken_by(*other) == taken_by(key);
 }
 
 /// "#contact", as links of Markdown go to a title.
@@ -52,37 +48,101 @@ std::string anchor(std::string title)
   return "#" + title;
 }
 
+/// Type of the key; a table whose keys are a group of their own is a link to it.
+std::string type_cell(const Key &key, const std::string &family)
+{
+  std::string text = taken_by(key);
+  for (const KeyGroup &group : key_groups())
+    if (const std::string keys = "table with " + quoted_names(key.keys);
+        group.of == key.name && belongs(group, family) && text.find(keys) != std::string::npos)
+      text.replace(text.find(keys), keys.size(), "[table](" + anchor(group.title) + ")");
+  return text;
+}
+
+std::string rows(const std::vector<Key> &keys, const std::string &family = "")
+{
+  if (keys.empty())
+    return "";
+  std::string text = "| Key | Description | Type / unit | Default |\n|---|---|---|---|\n";
+  for (const Key &key : keys)
+    text += "| `" + key.name + "` | " + key.meaning + " | " + type_cell(key, family) + " | " + default_of(key) + " |\n";
+  return text + "\n";
+}
+
+/// Whether the page has to give the signals: those that all types of a family have are in its text.
+bool has_own_signals(const DeclaredTable &table)
+{
+  const std::vector<DeclaredTable> &all = declared_tables();
+  return !table.signals.empty() &&
+         std::any_of(all.begin(), all.end(),
+                     [&](const DeclaredTable &other)
+                     { return family_of(other) == family_of(table) && other.signals != table.signals; });
+}
+
+/// Whether a value of one of the keys is more than a number, a word or a vector; `gestell help` prints all examples.
+bool needs_example(const std::vector<Key> &keys)
+{
+  const auto is_nested = [](Key::Form form)
+  {
+    using Form = Key::Form;
+    return form == Form::profile || form == Form::course || form == Form::rows || form == Form::tables ||
+           form == Form::formula || form == Form::map;
+  };
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const Key &key)
+                     { return is_nested(key.form) || std::any_of(key.others.begin(), key.others.end(), is_nested); });
+}
+
 std::string section(const DeclaredTable &table)
 {
   std::string      text = "### " + (table.type.empty() ? table.path : table.type) + "\n\n" + table.does;
-  std::vector<Key> own  = table.keys;
+  std::string      groups;
+  std::vector<Key> own = table.keys;
   for (const KeyGroup &group : key_groups())
   {
-    if (std::find(group.families.begin(), group.families.end(), family_of(table)) == group.families.end())
+    if (!belongs(group, family_of(table)))
       continue;
-    const auto shared =
-        std::stable_partition(own.begin(), own.end(), [&](const Key &key) { return !is_shared(key, group); });
+    const auto shared = std::stable_partition(
+        own.begin(), own.end(), [&](const Key &key) { return !(group.of.empty() && has_row(group.keys, key)); });
     if (2 * static_cast<std::size_t>(own.end() - shared) <= group.keys.size()) // a reader would have to look up more
       continue;                                                                // keys than stay in the table
     std::vector<Key> others;
     std::copy_if(group.keys.begin(), group.keys.end(), std::back_inserter(others),
                  [&](const Key &key)
                  { return std::none_of(shared, own.end(), [&](const Key &other) { return other.name == key.name; }); });
-    text += " Keys of [" + group.title + "](" + anchor(group.title) + ")" +
-            (others.empty() ? "." : " except " + quoted_names(others) + ".");
+    groups += (groups.empty() ? " Keys of [" : ", and of [") + group.title + "](" + anchor(group.title) + ")" +
+              (others.empty() ? "" : " except " + quoted_names(others));
     own.erase(shared, own.end());
   }
   own.erase(
       std::remove_if(own.begin(), own.end(), [&](const Key &key) { return !table.type.empty() && key.name == "type"; }),
       own.end());
-  text += "\n\n" + rows(own);
-  if (!table.signals.empty())
-    text += "Signals: " + table.signals + ".\n\n";
-  if (!table.examples.empty())
+  text += groups + (groups.empty() ? "" : ".");
+  if (has_own_signals(table))
+    text += " Signals: " + table.signals + ".";
+  text += "\n\n" + rows(own, family_of(table));
+  if (!table.examples.empty() && needs_example(table.keys))
     text += "```toml\ntype = \"" + table.type + "\"\n" + table.examples.front() + "```\n\n";
-  if (table.examples.size() > 1)
-    text += "More examples: `gestell help '" + table.path + "'`.\n\n";
   return text;
+}
+
+/// Rows of a table.  Keys that its page explains for another table are only named: of a part those of the frame, of a
+/// support given by matrices those of a cut.
+std::string own_rows(const DeclaredTable &table)
+{
+  const bool        is_part = table.path == "frame.part";
+  const std::string other   = is_part ? "frame" : table.path == "matrices.support" ? "matrices.cut" : "";
+  const auto        found   = std::find_if(declared_tables().begin(), declared_tables().end(),
+                                           [&](const DeclaredTable &one) { return one.path == other; });
+  if (found == declared_tables().end())
+    return rows(table.keys);
+  std::vector<Key> own = table.keys;
+  const auto       same =
+      std::stable_partition(own.begin(), own.end(), [&](const Key &key) { return !has_row(found->keys, key); });
+  const std::vector<Key> shared(same, own.end());
+  own.erase(same, own.end());
+  return rows(own) + "Keys with the same meaning as " + (is_part ? "for a [`[frame]`](frame.md#frame)" : "for a cut") +
+         ": " + quoted_names(shared) + ".\n\n";
 }
 
 std::string content(const std::filesystem::path &file)
@@ -103,7 +163,7 @@ std::string key_tables(const std::string &topic)
   for (const KeyGroup &group : key_groups())
     if (group.families.front() == topic)
       text += "### " + group.title + "\n\n" + (group.of.empty() ? "" : "Keys of `" + group.of + "`.\n\n") +
-              rows(group.keys);
+              rows(group.keys, topic);
   for (const DeclaredTable &table : declared_tables())
     if (table.heading == "[" + topic + ".NAME]" && (!table.type.empty() || table.path == "element"))
       text += section(table);
@@ -111,7 +171,7 @@ std::string key_tables(const std::string &topic)
     return text;
   for (const DeclaredTable &table : told_tables())
     if (table.path == topic)
-      return rows(table.keys);
+      return own_rows(table);
   throw std::invalid_argument("there is no table '" + topic + "' whose keys could be listed");
 }
 
@@ -130,7 +190,7 @@ std::string generated(const std::string &marker)
     return question_table();
   if (marker.rfind(keys, 0) != 0)
     throw std::invalid_argument("the marker '" + marker +
-                                "' is not known; there are 'keys: TABLE', 'members: summary.json', 'questions', "
+                                "' is not known; valid: 'keys: TABLE', 'members: summary.json', 'questions', "
                                 "'result files' and 'options'");
   return key_tables(marker.substr(keys.size()));
 }

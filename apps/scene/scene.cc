@@ -51,7 +51,7 @@ void look_at(const BodyRequest &body, Unexpected &found)
   constexpr double farthest = 200.; // m: machines and their halls
   if (place > farthest)
     found.push_back({body.place,
-                     "lies " + short_text(place) + " m from the origin; expected: at most " + short_text(farthest) +
+                     "is " + short_text(place) + " m from the origin; expected: at most " + short_text(farthest) +
                          " m; numbers without a unit are in m, others are written as \"850 mm\"",
                      place / farthest});
 }
@@ -83,7 +83,7 @@ void warn_of_implausible_numbers(Scene &scene)
   const double amount = std::hypot(g[0], g[1], g[2]);
   if (g[2] > 0.9 * amount && amount > 1.)
     scene.warnings.push_back(scene.file + ":1: gravity: acts upwards, along +z, with " + short_text(g[2]) +
-                             " m/s^2; where z points up it is [0, 0, \"-9.81 m/s^2\"]");
+                             " m/s^2; if z points up, write [0, 0, \"-9.81 m/s^2\"]");
 }
 
 /// Reads the name of a reduction and its keys in the table.
@@ -95,7 +95,7 @@ coupling::ReductionEntry read_reduction_method(const SceneTable &table)
   for (const auto &entry : entries)
     for (const std::string &key : entry.keys)
       if (table.has(key) && !own->takes(key))
-        throw table.error(key, "is not for method = \"" + name + "\", " + own->title + "; leave it out");
+        throw table.error(key, "is not for method = \"" + name + "\", " + own->title + "; remove it");
   return *own;
 }
 
@@ -104,14 +104,13 @@ void require_method_of_parts(const SceneTable &table, const ReductionRequest &re
 {
   const std::string &method = request.options.method;
   if (!request.makes_frame)
-    throw table.error("method",
-                      "\"" + request.method +
-                          "\" takes the frame in one piece, but parts are joined after their reduction; leave "
-                          "it out, or draw the frame in one piece");
+    throw table.error("method", "\"" + request.method +
+                                    "\" reduces the frame in one piece, but parts are joined after their reduction; "
+                                    "remove it, or draw the frame in one piece");
   if (method != "craig-bampton")
     throw table.error(table.has("inside") ? "inside" : "method",
                       "'" + method +
-                          "' of parts does not keep what joins them; parts are reduced by \"craig-bampton\"");
+                          "' does not retain the joined interfaces of parts; use \"craig-bampton\" for parts");
 }
 
 ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &frame)
@@ -137,7 +136,7 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
   {
     request.options.n_modes = table.whole("modes");
     if (request.options.n_modes < 0)
-      throw table.error("modes", "needs a number of modes of zero or more; leave it out for an automatic choice");
+      throw table.error("modes", "needs a number of modes of zero or more; remove it for an automatic choice");
   }
   request.options.frequency = table.value_or("frequency", 0.);
   if (request.reduces())
@@ -220,7 +219,7 @@ std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &n
     if (frame && !names.interfaces().empty() && std::find(valid.begin(), valid.end(), name) == valid.end())
       throw table.error(key, "the frame has no coordinate '" + name + "'" + suggestion(name, valid));
     if (std::any_of(values.begin(), values.end(), [&](const NamedValue &other) { return other.name == name; }))
-      throw table.error(key, "is the coordinate '" + name + "', which has a value already; give one of both");
+      throw table.error(key, "is the coordinate '" + name + "', which already has a value; give only one of them");
     if (inner) // in the unit of the coordinate itself
     {
       values.push_back({name, table.number(key, kind::number), table.place(key), false});
@@ -271,7 +270,7 @@ StartRequest read_start(const SceneTable &scene, const Names &names, const Scene
   if (start.steady.angles.size() != (start.steady.driver.empty() ? 0u : 1u))
     throw table.error("gives " + std::to_string(start.steady.angles.size()) + " angles and " +
                       (start.steady.driver.empty() ? "no driver" : "a driver") +
-                      "; a given angle replaces the balance of the driver, so give one of each, or neither");
+                      "; a given angle replaces the balance of the driver, so give both or neither");
   return start;
 }
 
@@ -292,8 +291,7 @@ ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene
     elements.push_back(element.name);
   for (const auto &name : modes.open)
     if (std::find(elements.begin(), elements.end(), name) == elements.end())
-      throw table.error("open",
-                        "there is no nonlinear element '" + name + "' that could be open" + suggestion(name, elements));
+      throw table.error("open", "there is no nonlinear element '" + name + "' to be open" + suggestion(name, elements));
   return modes;
 }
 
@@ -307,15 +305,14 @@ void check_gravity(const SceneTable &table, const Scene &scene)
     std::ostringstream text;
     text.precision(4);
     text << "is " << amount << " m/s^2, " << amount / 9.81
-         << " times that of the earth; numbers without a unit are in m/s^2, others are written as \"-9810 mm/s^2\"";
+         << " times that of the Earth; numbers without a unit are in m/s^2, others are written as \"-9810 mm/s^2\"";
     table.warn("gravity", text.str());
   }
   if (scene.frame.source == FrameSource::matrices && !scene.frame.has_translations &&
       (g[0] != 0. || g[1] != 0. || g[2] != 0.))
-    throw std::invalid_argument(
-        scene.frame.place +
-        ": gravity acts on every row of the frame, but not every row belongs to an "
-        "interface; give 'translations', the n x 3 matrix of q under a unit translation in x, y, z");
+    throw std::invalid_argument(scene.frame.place +
+                                ": gravity acts on every row of the frame, but not every row is part of an interface; "
+                                "give 'translations', the n x 3 matrix of q under a unit translation in x, y, z");
 }
 
 } // namespace

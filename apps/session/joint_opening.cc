@@ -30,10 +30,10 @@ int number_of(const Scene &scene, const std::vector<coupling::Signal> &signals, 
 std::string opening_text(const coupling::FrameJoint &joint, const coupling::SignalSummary &force)
 {
   const DisplayUnit unit = display_unit("N", std::abs(force.min));
-  return joint.place + ": this joint opens: its normal force falls to " + rounded(unit.factor * force.min) + " " +
+  return joint.place + ": this joint opens: its normal force drops to " + rounded(unit.factor * force.min) + " " +
          unit.unit + " at " + rounded(force.t_min) +
-         " s, a pull that a contact does not carry; from its first opening on the linear frame, and this run, are no "
-         "longer valid. Raise the prestress of the tie rods, or lower the load";
+         " s, i.e. tension, which a contact cannot carry; results after the first opening are not valid. Increase the "
+         "prestress of the tie rods, or reduce the load";
 }
 
 } // namespace

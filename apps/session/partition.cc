@@ -129,7 +129,7 @@ void hold_free_motions(const coupling::ReducedFrame &frame, Reasons &reasons, Pa
   std::vector<int> holding;
   rank([](int) { return true; }, [&](int i) { holding.push_back(i); });
   for (const int i : holding)
-    reasons.add(i, "holds", "a free motion, C22 would be singular");
+    reasons.add(i, "holds", "a free motion (C22 would be singular)");
 }
 
 /// Inner coordinates without mass.
@@ -152,7 +152,7 @@ Partition partition_of(const Scene &scene, const coupling::Machine &machine,
 {
   const coupling::ReducedFrame *frame = machine.model().reduced_frame();
   if (!frame || !scene.reduction.reduces())
-    throw std::invalid_argument(scene.file + ": its frame is not reduced, and has no partition");
+    throw std::invalid_argument(scene.file + ": the frame is not reduced, so it has no partition");
   Reasons reasons(frame->n_interface);
   add_acting(scene, machine, reasons);
   for (const BodyRequest &body : scene.bodies)

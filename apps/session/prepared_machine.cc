@@ -51,7 +51,7 @@ coupling::Progress stoppable(coupling::Progress progress, const std::atomic<bool
   return [progress = std::move(progress), stop](const std::string &phase, double share)
   {
     if (stop && *stop && fem::may_be_stopped(phase))
-      throw std::runtime_error("stopped while the frame was made (" + phase + ")");
+      throw std::runtime_error("interrupted while the frame was created (" + phase + ")");
     tell(progress, phase, share);
   };
 }
@@ -247,7 +247,7 @@ coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepar
 std::string mesh_text(const FrameRequest &frame)
 {
   return frame.source == FrameSource::matrices
-             ? "the frame is given by matrices; of the error of a mesh they may come from nothing is known"
+             ? "the frame is given by matrices, so the error of the mesh behind them is unknown"
              : "";
 }
 
@@ -309,7 +309,7 @@ void add_poles(const Scene &scene, coupling::Machine &machine, const Eigen::Vect
   }
   result.poles = coupling::operating_poles(machine, q, speeds, scene.run.options.begin, how);
   if (!result.poles.empty() && !unknown.empty())
-    result.warnings.push_back("drives are linearised at rest, for the start has no speeds: " + unknown);
+    result.warnings.push_back("drives are linearised at rest, because the initial speeds are unknown: " + unknown);
   if (result.poles.size() > std::size_t(scene.modes.number))
     result.poles.resize(scene.modes.number);
 }
@@ -356,7 +356,9 @@ void add_modes_beside(const Scene &scene, coupling::Machine &machine, const coup
       none_by([&] { add_modes(scene, machine, initial_state(scene, machine).q, how, result); });
   if (why_none.empty())
   {
-    result.warnings.push_back("the modes are those of the start, as there are none where modes are taken: " + why);
+    result.warnings.push_back(
+        "the modes are those of the initial state, because they cannot be computed in the configuration of [modes]: " +
+        why);
     return;
   }
   result.modes_at = q;
@@ -372,23 +374,21 @@ std::string without_modes(const Scene &scene, const std::string &command, const 
 {
   const int n = machine.size();
   if (scene.modes.number == 0 && command == "modes")
-    throw std::invalid_argument(
-        "modes.number = 0 leaves out what `gestell modes` tells; give it --set modes.number=20");
+    throw std::invalid_argument("modes.number = 0 switches the modes off; use --set modes.number=20");
   if (scene.modes.number == 0)
-    return "not asked for";
+    return "not requested";
   // Largest number of coordinates for which a run computes modes without a request: their cost grows with the third
   // power, that of a motion much less.
   constexpr int most_coordinates = 600;
   if (command == "run" && n > most_coordinates)
-    return "of " + std::to_string(n) + " coordinates, more than " + std::to_string(most_coordinates) +
-           ", modes take longer than most runs (the cube of their number) and are left out of the report; `gestell "
-           "modes` tells them, modes.number = 0 leaves this note out";
+    return "with " + std::to_string(n) + " DOFs, more than " + std::to_string(most_coordinates) +
+           ", modes take longer than most runs (cost: third power of the number); `gestell modes` computes them, and "
+           "modes.number = 0 removes this note";
   // Number of dense matrices [n x n] allocated at once for the modes of n coordinates: M, B, K, Z, those of the free
   // motions, the modes, and the state matrix [2n x 2n] with its complex vectors.
   constexpr double matrices_of_modes = 24.;
   fem::require_available("modes: dense matrices of " + std::to_string(n) + " coordinates",
-                         matrices_of_modes * 8. * n * n,
-                         "modes.number = 0 leaves modes out; give the machine fewer bodies.");
+                         matrices_of_modes * 8. * n * n, "Set modes.number = 0 for no modes, or use fewer bodies.");
   return "";
 }
 

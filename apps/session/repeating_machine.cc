@@ -64,7 +64,7 @@ double common_period_of(const std::vector<double> &omega, const Scene &scene)
   text << scene.file << ": the loads have no common period; their frequencies are";
   for (const double w : omega)
     text << ' ' << short_text(w / (2. * M_PI), 8) << " Hz";
-  text << ": make them commensurate (ratios of integers up to 64), or look at the spectra of a run instead";
+  text << ": make them commensurate (ratios of integers up to 64), or examine the spectra of a run instead";
   throw std::invalid_argument(text.str());
 }
 
@@ -154,7 +154,7 @@ int periods_of_loads(double period, const std::vector<double> &omega, const Scen
     return int(std::round(times));
   throw std::invalid_argument(scene.file + ": --period: the loads do not repeat after " + short_text(period, 8) +
                               " s, but after " + short_text(own, 8) +
-                              " s; give that or a multiple of it, or leave it out");
+                              " s; use that or a multiple of it, or remove --period");
 }
 
 double asked_period(const PeriodicRequest &request)
@@ -197,10 +197,10 @@ void oscillate_freely(const Scene &scene, coupling::Machine &machine, RepeatingM
   problem.phase_value                     = own.phase_value;
   problem.phase_falls                     = own.falls;
   problem.free                            = coupling::without_coordinate(problem.free, own.phase);
-  repeating.reason =
-      "nothing drives the machine, which keeps swinging by itself; its period is unknown, and begins where " +
-      machine.coordinate_name(own.phase) + (own.falls ? " falls" : " rises") + " through the middle of its way" +
-      (own.pushed ? " (it rested at the start, and was pushed)" : "");
+  repeating.reason = "the machine is self-excited, so its period is unknown; a period begins where " +
+                     machine.coordinate_name(own.phase) + (own.falls ? " falls" : " rises") +
+                     " through the middle of its range" +
+                     (own.pushed ? " (it was at rest initially and was disturbed)" : "");
 }
 
 bool is_driven(const Scene &scene, const coupling::Machine &machine)
@@ -225,7 +225,7 @@ std::string turn(const Scene &scene, coupling::Machine &machine, const coupling:
     throw std::invalid_argument(scene.file + ": " + found.refusal +
                                 (problem.period > 0. ? "; load and turning must be commensurate: give --period, or "
                                                        "change the speed"
-                                                     : "; such a motion never repeats: look at the spectra of a run"));
+                                                     : "; such a motion never repeats: examine the spectra of a run"));
   if (const std::string element = invariance.changed_by(of_angles(found.turn, turning.angles)); !element.empty())
     throw std::invalid_argument(scene.file + ": the force of " + element +
                                 " does not repeat after one period, so there is no periodic solution; run the scene "
@@ -239,8 +239,8 @@ std::string turn(const Scene &scene, coupling::Machine &machine, const coupling:
     problem.phase_value = start.q[found.phase];
     repeating.reason    = "the machine completes its period with " + machine.coordinate_name(found.phase) +
                        (is_driven(scene, machine)
-                            ? "; the speed is that at which motor and resistance balance"
-                            : "; nothing drives it, so that its speed is free: give it by --period, or add a motor");
+                            ? "; its mean speed follows from the balance of motor and resistance"
+                            : "; it has no drive, so its speed is arbitrary: set it by --period, or add a motor");
   }
   return problem.turn.isZero(0.) ? held_angles(invariance, turning.speed, machine) : "";
 }
@@ -254,7 +254,8 @@ coupling::MethodOptions periodic_integration(const Scene &scene, const coupling:
     return coupling::PeriodicOptions().integration;
   if (scene.run.given)
     return scene.run.options.method;
-  throw std::invalid_argument(scene.file + ": " + why + ", integrated as [run] says, but there is no [run]");
+  throw std::invalid_argument(scene.file + ": " + why +
+                              ", which is integrated with the settings of [run], but there is no [run]");
 }
 
 double load_period(const Scene &scene, const coupling::Machine &machine)
@@ -292,7 +293,7 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
                                 (problem.period > 0.
                                      ? " and does not repeat after " + short_text(problem.period, 8) + " s"
                                      : ", which gives no period") +
-                                ": give --period \"... s\", or a load with harmonics whose frequencies tell it");
+                                ": set --period \"... s\", or add a load with harmonics");
   if (!(problem.period > 0.))
     oscillate_freely(scene, machine, repeating);
   repeating.reason += held;
@@ -312,15 +313,15 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
     const coupling::PeriodicMethod &method = coupling::periodic_method(name);
     if (const std::string why = method.refuses(problem); !why.empty())
       throw std::invalid_argument("--method " + name + ": " + why);
-    return {&method, "asked for"};
+    return {&method, "requested"};
   }
   const std::string why = coupling::shooting_method().refuses(problem);
   if (!why.empty())
     return {&coupling::settling_method(), why};
   constexpr int few_coordinates = 3; // up to which all solutions are searched by default
   if (problem.turn.size() <= few_coordinates && !problem.period_is_unknown())
-    return {&coupling::minimising_method(), "few coordinates: all solutions are searched for"};
-  return {&coupling::shooting_method(), "it takes few periods, and tells the stability"};
+    return {&coupling::minimising_method(), "few coordinates, so all solutions are searched"};
+  return {&coupling::shooting_method(), "it needs few periods and gives the stability"};
 }
 
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,

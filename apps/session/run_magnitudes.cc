@@ -175,7 +175,7 @@ std::optional<UnexpectedValue> RunMagnitudes::judged_slip(const Watched         
     return UnexpectedValue{key_place(scene_, watched.object, "slip"),
                            std::string(when) + " of the run is " + short_text(slip) + "; expected: " + expected +
                                "within the breakdown slip of " + short_text(most) +
-                               "; check synchronous_speed, ratio, breakdown_torque and the speeds of the start",
+                               "; check synchronous_speed, ratio, breakdown_torque and the initial speeds",
                            std::abs(slip) / most};
   };
   constexpr double standstill = 0.05; // of the synchronous speed: a motor that starts
@@ -221,9 +221,10 @@ std::optional<UnexpectedValue> RunMagnitudes::judged(const Watched &watched, con
                                     : 0.;
     return above(
         e, most, key("stiffness"),
-        "yields by " + amount(e, turns ? "rad" : "m") + " under its largest force of " + amount(value.largest(), unit) +
-            at(value.t_largest()) + "; expected: at most " + amount(most, turns ? "rad" : "m") +
-            (turns ? ", as highly elastic couplings do"
+        "deflects by " + amount(e, turns ? "rad" : "m") + " under its largest force of " +
+            amount(value.largest(), unit) + at(value.t_largest()) + "; expected: at most " +
+            amount(most, turns ? "rad" : "m") +
+            (turns ? ", the range of highly elastic couplings"
                    : ", or " + short_text(most_yielding) + " of the length of the rod or the size of the machine") +
             "; check the units of its stiffness and of masses and loads");
   }
@@ -233,9 +234,9 @@ std::optional<UnexpectedValue> RunMagnitudes::judged(const Watched &watched, con
     constexpr double most_travel = 1.; // of the machine: no spring is longer
     const double     most        = turns ? watched.scale : most_travel * size_;
     return above(way, most, key("stiffness"),
-                 "its ends move by " + amount(way, unit) + " against each other; expected: at most " +
+                 "the relative displacement of its ends is " + amount(way, unit) + "; expected: at most " +
                      amount(most, unit) +
-                     (turns ? ", as elastic couplings and torsion springs do" : ", the size of the machine") +
+                     (turns ? ", the range of elastic couplings and torsion springs" : ", the size of the machine") +
                      "; check the units of its stiffness and of masses and loads");
   }
   case Kind::contact:
@@ -244,8 +245,8 @@ std::optional<UnexpectedValue> RunMagnitudes::judged(const Watched &watched, con
       return std::nullopt;
     const auto own = scene_.element_places.find(watched.object);
     return UnexpectedValue{own == scene_.element_places.end() ? watched.object : own->second,
-                           "never acts in this run, its force stays zero; expected: a force at some time; check its "
-                           "place, its gap and the motion, or leave it out",
+                           "never acts in this run (its force stays zero); expected: a force at some time; check its "
+                           "location, its gap and the motion, or remove it",
                            1.};
   }
   case Kind::slip:
@@ -256,23 +257,23 @@ std::optional<UnexpectedValue> RunMagnitudes::judged(const Watched &watched, con
     // [m/s] of a solid disc of steel at sqrt(8 sigma / ((3 + nu) rho)) with a strength of 600 MPa
     constexpr double fastest_rim = 430.;
     return above(rim, fastest_rim, body + ".radius",
-                 "its rim has " + amount(rim, "m/s") + at(value.t_largest()) + "; expected: at most " +
+                 "the speed of its rim is " + amount(rim, "m/s") + at(value.t_largest()) + "; expected: at most " +
                      amount(fastest_rim, "m/s") +
                      ", at which a disc of steel bursts; check speeds, torques and inertia");
   }
   case Kind::speed:
     return above(value.largest(), fastest, body,
                  "moves with " + amount(value.largest(), "m/s") + at(value.t_largest()) + "; expected: at most " +
-                     amount(fastest, "m/s") + ", as tools and slides do; check forces, mass and speeds");
+                     amount(fastest, "m/s") + ", the range of tools and slides; check forces, mass and speeds");
   case Kind::yielding:
     return above(way, most_yielding * size_, scene_.frame.place,
-                 "the frame yields at \"" + watched.object + "\" by " + amount(way, "m") +
+                 "the frame deflects at \"" + watched.object + "\" by " + amount(way, "m") +
                      "; expected: " + yielding_text(size_) + "; check stiffness, supports and loads");
   case Kind::way:
     return above(way, farthest * size_, body,
                  "moves " + amount(way, "m") + "; expected: at most " + amount(farthest * size_, "m") + ", " +
                      short_text(farthest) +
-                     " times the size of the machine; check what holds it, its mass and its loads");
+                     " times the size of the machine; check its supports, its mass and its loads");
   }
   return std::nullopt;
 }

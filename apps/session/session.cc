@@ -30,7 +30,7 @@ void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomi
   const auto             found     = chosen.method->solve(repeating.problem, repeating.guess, options);
   const auto             solution  = std::find_if(found.begin(), found.end(), [](const auto &s) { return s.stable(); });
   if (solution == found.end())
-    throw coupling::ConvergenceFailure("start.rule = \"periodic\": the periodic motions found are unstable");
+    throw coupling::ConvergenceFailure("start.rule = \"periodic\": the periodic solutions found are unstable");
   state.q       = solution->q;
   state.v       = solution->v;
   state.settled = true;
@@ -65,7 +65,7 @@ coupling::RunResult not_started(const coupling::RunOptions &run, const std::stri
 {
   coupling::RunResult result;
   result.method = coupling::method_name(run.method);
-  result.stop("no-start", "", "the machine does not start: " + failure);
+  result.stop("no-start", "", "no initial state: " + failure);
   return result;
 }
 

@@ -95,8 +95,8 @@ std::string words_of_disagreement(const StressAt &instant)
   return "the largest stress " + (instant.label.empty() ? "" : "(" + instant.label + ") ") + "at " +
          short_text(instant.t) + " s, " + short_text(1e-6 * peak.von_mises) + " MPa at (" + short_text(peak.at[0]) +
          " " + short_text(peak.at[1]) + " " + short_text(peak.at[2]) +
-         "), is uncertain: neighbouring elements disagree by " + short_text(100. * peak.disagreement, 2) +
-         " %, above 10 % the mesh is too coarse there; make it finer";
+         ") is uncertain: neighbouring elements disagree by " + short_text(100. * peak.disagreement, 2) +
+         " % (above 10 % the mesh is too coarse); refine it there";
 }
 
 } // namespace
@@ -104,9 +104,8 @@ std::string words_of_disagreement(const StressAt &instant)
 void require_stress(const Scene &scene, const ReducedFrame *frame)
 {
   if (scene.stress.given && (!frame || frame->stress.empty()))
-    throw std::invalid_argument(scene.stress.place +
-                                ": the reduced frame was written without stresses; write it again by `gestell reduce` "
-                                "of a scene with [output.stress]");
+    throw std::invalid_argument(scene.stress.place + ": the reduced frame contains no stresses; create it again by "
+                                                     "`gestell reduce` from a scene with [output.stress]");
 }
 
 StressResult stress_answer(const Scene &scene, const ReducedFrame &frame, const coupling::RunResult &run,

@@ -94,7 +94,7 @@ Parts read_parts(const PictureFrame &frame)
     reader->Update();
     vtkSmartPointer<vtkPolyData> part = reader->GetOutput();
     if (reader->GetErrorCode() != 0 || part->GetNumberOfPoints() == 0 || !part->GetPointData()->GetArray(displacement))
-      throw std::invalid_argument(file.string() + ": is broken, or has no " + displacement + "; run the scene again");
+      throw std::invalid_argument(file.string() + ": is damaged, or has no " + displacement + "; run the scene again");
     parts.push_back(part);
   }
   return parts;

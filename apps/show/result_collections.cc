@@ -103,7 +103,7 @@ PictureSeries at_peak(const std::vector<PictureFrame> &motion, double t)
   const auto nearer = [&](const PictureFrame &a, const PictureFrame &b)
   { return std::abs(a.time - t) < std::abs(b.time - t); };
   return {"machine_peak",
-          "The machine at its peak, t = {t} s, displacements {times} times",
+          "Machine at the main peak, t = {t} s, displacements enlarged {times} times",
           {*std::min_element(motion.begin(), motion.end(), nearer)}};
 }
 
@@ -118,7 +118,7 @@ void add_stresses(const std::vector<PictureFrame> &instants, std::vector<Picture
 {
   for (std::size_t k = 0; k < instants.size(); ++k)
     series.push_back({"stress_" + std::to_string(k + 1),
-                      "Equivalent stress at t = {t} s, displacements {times} times",
+                      "Von Mises stress at t = {t} s, displacements enlarged {times} times",
                       {instants[k]}});
 }
 
@@ -136,8 +136,8 @@ std::vector<PictureFrame> read_collection(const fs::path &pvd)
     frames[time][part] = file_in(pvd, set);
   }
   if (frames.empty())
-    refuse(pvd, "names no data set, as no body of the scene can be drawn; give bodies a 'size' or a 'radius' and run "
-                "the scene again");
+    refuse(pvd, "has no data set, because no body of the scene can be drawn; give bodies a 'size' or a 'radius' and "
+                "run the scene again");
   std::vector<PictureFrame> list;
   for (const auto &[time, parts] : frames)
   {
@@ -155,7 +155,7 @@ std::optional<double> peak_time(const fs::path &results)
     return {};
   const auto summary = nlohmann::json::parse(content_of(file), nullptr, false);
   if (summary.is_discarded())
-    refuse(file, "is no JSON; run the scene again");
+    refuse(file, "is not JSON; run the scene again");
   const auto peak = summary.find("main_peak");
   if (peak == summary.end() || !peak->is_object() || !peak->value("t", nlohmann::json()).is_number())
     return {};
@@ -172,20 +172,19 @@ std::vector<PictureSeries> pictures_of(const fs::path &results, std::size_t most
 
   std::vector<PictureSeries> series;
   if (!motion.empty())
-    series.push_back({"machine", "The machine at t = {t} s", {motion.front()}, false, true});
+    series.push_back({"machine", "Machine at t = {t} s", {motion.front()}, false, true});
   else if (!coupled.empty())
-    series.push_back({"machine", "The machine where its modes are taken", {coupled.front()}, false, true});
+    series.push_back({"machine", "Machine in the configuration of the modes", {coupled.front()}, false, true});
   if (const auto t = peak_time(results); t && !motion.empty())
     series.push_back(at_peak(motion, *t));
   if (!motion.empty())
-    series.push_back({"motion", "t = {t} s, displacements {times} times", motion});
+    series.push_back({"motion", "t = {t} s, displacements enlarged {times} times", motion});
   add_stresses(collection_or_nothing(results / "stress.pvd"), series);
   add_modes(coupled, "mode", "Coupled mode", most_modes, series);
   add_modes(collection_or_nothing(results / "frame_modes.pvd"), "frame_mode", "Mode of the frame", most_modes, series);
   if (series.empty())
-    refuse(results,
-           "holds no motion.pvd, coupled_modes.pvd or frame_modes.pvd: run the scene with output.picture_step, "
-           "or `gestell modes`");
+    refuse(results, "contains no motion.pvd, coupled_modes.pvd or frame_modes.pvd; run the scene with "
+                    "output.picture_step, or `gestell modes`");
   return series;
 }
 

@@ -90,9 +90,8 @@ XServer::XServer()
       kill(process_, SIGTERM);
       waitpid(process_, nullptr, 0);
     }
-    throw std::invalid_argument(
-        "show: pictures are drawn on Xvfb, an X server without a screen, which is missing or does not start: install "
-        "the package xvfb, or open motion.pvd in ParaView");
+    throw std::invalid_argument("show: Xvfb (X server without a screen) is missing or does not start; install the "
+                                "package xvfb, or open motion.pvd in ParaView");
   }
   setenv("DISPLAY", (":" + display).c_str(), 1);
 }
@@ -119,8 +118,8 @@ DrawPictures *picture_service()
   const auto file = coupling::find_plugin(show_library);
   if (file.empty())
     throw std::invalid_argument(std::string("show: ") + show_library +
-                                " not found beside the program: this build of gestell has no VTK to draw with; install "
-                                "libvtk9-dev and build again, or open motion.pvd in ParaView");
+                                " not found next to the program: this build of gestell has no VTK; install libvtk9-dev "
+                                "and build again, or open motion.pvd in ParaView");
   return reinterpret_cast<DrawPictures *>(
       coupling::function_of_plugin(coupling::load_plugin(file), "gestell_draw_pictures", show_library));
 }
@@ -167,19 +166,19 @@ int show(const ShowOptions &options)
 Command show_command()
 {
   const auto own = std::make_shared<ShowOptions>();
-  return {
-      "show",
-      "draw results as PNG pictures and films (APNG, OGV): the machine at start and peak, motion, stresses and modes",
-      {"gestell show results/press", "gestell show results/press --no-films --times 500"},
-      CommandInput::none,
-      {{"DIR", &own->folder, "folder of results of `gestell run` or `gestell modes`"},
-       {"-o,--output", &own->pictures, "folder for the pictures (default DIR/pictures)"},
-       CommandOption{"--times", &own->times, "enlargement of displacements (default: a round number)"}.above_zero(),
-       CommandOption{"--modes", &own->modes, "number of modes of each kind (default 6)"}.above_zero(),
-       CommandOption{"--width", &own->width, "width of a picture in pixels (default 1000)"}.above_zero(),
-       {"--films,!--no-films", &own->films, "films of the motion and of the modes, in addition to pictures"},
-       {"--quiet", &own->quiet, "no progress on standard error"}},
-      [own](const CommonOptions &) { return show(*own); }};
+  return {"show",
+          "draw results as PNG pictures and films (APNG, OGV): machine at the start and at the main peak, motion, "
+          "stresses and modes",
+          {"gestell show results/press", "gestell show results/press --no-films --times 500"},
+          CommandInput::none,
+          {{"DIR", &own->folder, "folder of results of `gestell run` or `gestell modes`"},
+           {"-o,--output", &own->pictures, "folder for the pictures (default DIR/pictures)"},
+           CommandOption{"--times", &own->times, "enlargement of displacements (default: a round number)"}.above_zero(),
+           CommandOption{"--modes", &own->modes, "number of modes of each kind (default 6)"}.above_zero(),
+           CommandOption{"--width", &own->width, "width of a picture in pixels (default 1000)"}.above_zero(),
+           {"--films,!--no-films", &own->films, "films of the motion and of the modes, in addition to pictures"},
+           {"--quiet", &own->quiet, "no progress on standard error"}},
+          [own](const CommonOptions &) { return show(*own); }};
 }
 
 } // namespace gestell::apps

@@ -149,8 +149,8 @@ Comparison BudgetMaker::sides()
   case Sides::exact:
     return nothing_errs("");
   case Sides::unknown:
-    return not_known("sides of its cells are straight at curved faces, and no second mesh has others; tetrahedra with "
-                     "mesh.curved = true follow them");
+    return not_known("its elements have straight edges at curved faces, as in every second mesh; tetrahedra with "
+                     "mesh.curved = true follow the faces");
   case Sides::straight:
     break;
   }
@@ -158,7 +158,7 @@ Comparison BudgetMaker::sides()
   curved.cells        = Cells::curved;
   if (scene_.frame.source == FrameSource::geometry && modes_are_chosen(scene_))
     curved.modes = run_.modes;
-  return against(curved, "sides that follow the geometry");
+  return against(curved, "curved element edges");
 }
 
 Comparison BudgetMaker::degree()
@@ -206,7 +206,7 @@ Comparison BudgetMaker::raised()
       if (modes_are_chosen(scene_)) // a frame may already be available
         variant.made = std::max(more_modes(scene_, run_), more_than(finest_.made));
       Comparison comparison =
-          against(variant, "elements of degree three" + (k > 0 ? " in cells of " + size : "") + skipped);
+          against(variant, "elements of degree three" + (k > 0 ? " in elements of " + size : "") + skipped);
       constexpr double left_over = 1.25; // of what degree three corrects, docs/theory/mesh_error.md (4b)
       comparison.factor          = left_over / std::pow(ratio, mesh_order);
       return comparison;
@@ -215,8 +215,8 @@ Comparison BudgetMaker::raised()
     {
       if (k == 0 || (stop_ && *stop_))
         throw;
-      skipped += "; cells of " + short_text(std::pow(ratio_of_meshes, k), 3) +
-                 " times the size are left out: " + failure.what();
+      skipped += "; elements of " + short_text(std::pow(ratio_of_meshes, k), 3) +
+                 " times the size are omitted: " + failure.what();
     }
   return {};
 }
@@ -237,7 +237,7 @@ Comparison BudgetMaker::coarser_cells()
     try
     {
       variant.mesh *= ratio_of_meshes;
-      size              = "cells of " + short_text(std::pow(ratio_of_meshes, k), 3) + " times the size";
+      size              = "elements of " + short_text(std::pow(ratio_of_meshes, k), 3) + " times the size";
       comparison.second = models_.of(variant);
     }
     catch (const FrameFailure &failure)
@@ -249,7 +249,7 @@ Comparison BudgetMaker::coarser_cells()
   const double     ratio  = std::cbrt(double(run_.n_frame) / comparison.second->n_frame);
   constexpr double hardly = 1.1; // ratio of sizes below which two meshes are alike
   if (ratio < hardly)
-    return not_known(size + " give nearly the same mesh: small features decide its size");
+    return not_known(size + " give nearly the same mesh, because small features determine it");
   comparison.factor = 1. / (std::pow(ratio, mesh_order) - 1.);
   comparison.reason = "against " + size + skipped;
   return comparison;
@@ -258,11 +258,11 @@ Comparison BudgetMaker::coarser_cells()
 Comparison BudgetMaker::more_modes_kept()
 {
   if (frame_path(scene_) == FramePath::from_file)
-    return not_known("the frame was reduced elsewhere; only who has the whole frame can tell");
+    return not_known("the frame was reduced outside Gestell, so its reduction error is unknown");
   if (!modes_are_chosen(scene_) && scene_.reduction.method != "guyan")
     return nothing_errs("the frame is not reduced");
   if (run_.modes >= run_.most_modes)
-    return nothing_errs("all modes are kept");
+    return nothing_errs("all modes are retained");
   ModelVariant more = finest_; // its frame already has these modes if it was made with more
   more.modes        = more_modes(scene_, run_);
   if (!modes_are_chosen(scene_)) // only statics
@@ -372,8 +372,8 @@ JudgedModel BudgetMaker::make()
 std::vector<OutputName> budget_outputs(const Scene &scene, const std::string &list)
 {
   if (scene.start.periodic)
-    throw std::invalid_argument("an error budget compares runs from one start, but start.rule = \"periodic\" finds "
-                                "another start for every model; give the state in [start]");
+    throw std::invalid_argument("an error budget compares runs from the same initial state, but start.rule = "
+                                "\"periodic\" finds another one for every model; give the state in [start]");
   return outputs_named(list, signal_names(scene), scene.modes.number);
 }
 

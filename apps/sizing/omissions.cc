@@ -155,7 +155,7 @@ void Questions::untouched_branches()
     const bool branches = element.element && element.element->branches();
     if (branches && !touched && model_.scene.run.options.events)
       found_.left_out.push_back("play, stops or sticking of \"" + element.name +
-                                "\": no event of it in the run, it stays in one branch of its law");
+                                "\": no event in the run, so it stays in one branch of its law");
   }
 }
 
@@ -205,7 +205,7 @@ void Questions::kinds_of_interfaces()
     const auto changed = change(other, model_.coarse_answer);
     if (rigid && changed && changed->share > model_.tolerance)
       found_.missing.push_back("the wall of interface \"" + interfaces[i].name +
-                               "\": it is held rigid, and coupling = \"average\" " + changed->text());
+                               "\": it is rigid, and coupling = \"average\" " + changed->text());
     if (!rigid && changed && changed->share <= half * model_.tolerance)
       found_.left_out.push_back("elasticity of the wall of interface \"" + interfaces[i].name +
                                 "\": coupling = \"rigid\" " + changed->text());
@@ -224,7 +224,7 @@ void Questions::fast_loads()
       highest = std::max(highest, harmonic.omega / (2. * M_PI));
     constexpr double near_cutoff = 1.5; // times a frequency of a load: modes up to there answer to it
     if (near_cutoff * highest > cutoff)
-      found_.missing.push_back("modes above " + short_text(cutoff, 3) + " Hz, the highest that is kept: \"" +
+      found_.missing.push_back("modes above " + short_text(cutoff, 3) + " Hz, the highest retained one: \"" +
                                load.name + "\" acts with " + short_text(highest, 3) + " Hz");
   }
 }

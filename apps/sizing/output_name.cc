@@ -50,11 +50,10 @@ OutputName output_named(const std::string &given, const std::vector<std::string>
     refuse(given, "is a count, which has no error; name a number of a signal, such as " +
                       (signals.empty() ? "F.max" : signals.front() + ".max"));
   if (among(signals, given))
-    refuse(given, "is a signal; say what of it: " + given + ".max, .min, .t_max, .t_min, .range or .final");
+    refuse(given, "is a signal; name one of its numbers: " + given + ".max, .min, .t_max, .t_min, .range or .final");
   if (among(signals, before))
-    refuse(given, "asks a signal for '" + after +
-                      "', which it does not have; it has max, min, t_max, t_min, range and "
-                      "final");
+    refuse(given, "requests '" + after +
+                      "' of a signal, which does not exist; valid: max, min, t_max, t_min, range and final");
   const std::string nearest = nearest_name(before, signals);
   refuse(given,
          "is not an output of this scene" +

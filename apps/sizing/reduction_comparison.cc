@@ -77,9 +77,9 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
                                        const ComparisonOptions &options)
 {
   if (frame_path(scene) != FramePath::reduce && !scene.reduction.superposition)
-    throw std::invalid_argument(scene.file +
-                                ": --reductions compares reductions of a frame, and this scene's frame is not reduced; "
-                                "give it a [reduction]");
+    throw std::invalid_argument(
+        scene.file +
+        ": --reductions compares reductions of a frame, but the frame of this scene is not reduced; add [reduction]");
   ReductionComparison comparison;
   comparison.outputs    = outputs;
   const int    most     = most_modes(scene);
@@ -87,9 +87,8 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
   const int    largest  = modes.back();
   const double duration = scene.run.options.end - scene.run.options.begin;
   if (largest > most)
-    throw std::invalid_argument("--modes: " + std::to_string(largest) +
-                                " modes, but the internal DOFs of the frame have " + std::to_string(most) +
-                                " coordinates; name no more");
+    throw std::invalid_argument("--modes: " + std::to_string(largest) + " modes, but the frame has " +
+                                std::to_string(most) + " internal DOFs; request no more modes");
   ModelAnswer   reference, answer;
   constexpr int finer  = 4; // times the largest number of modes, of the reference: its error is far smaller
   comparison.reference = options.full ? point_of(scene, "condensation", -1, outputs, options.stop, reference)

@@ -90,7 +90,7 @@ ModelVariant SizeModels::variant_of(const SizePlace &place, double most_cells) c
 bool SizeModels::skip(const SizePlace &place, const std::exception &failure)
 {
   constexpr std::size_t most = 4; // models: that many do not fail for their size
-  skipped_.push_back("cells of " + short_text(place.mesh, 3) + " times the size: " + failure.what());
+  skipped_.push_back("elements of " + short_text(place.mesh, 3) + " times the size: " + failure.what());
   return skipped_.size() < most && dynamic_cast<const FrameFailure *>(&failure);
 }
 
@@ -120,8 +120,8 @@ SizePlace SizeModels::coarse_on(SizePlace place)
   if (by_exact_ = takes_exact(place); by_exact_)
     return first_ = place;
   if (!scene_.run.step_given)
-    throw std::invalid_argument(scene_.run.place + ": the step follows from the modes, and `size` varies a given one: "
-                                                   "give run.step, or a method with a tolerance");
+    throw std::invalid_argument(scene_.run.place + ": the step follows from the modes, but `size` needs a step that it "
+                                                   "can vary: set run.step, or a method with a tolerance");
   const coupling::MethodOptions &given   = scene_.run.options.method;
   constexpr double               longest = 8.; // of the scene's steps: eight times, four, two, as given
   for (double factor = longest; factor >= 1.; factor /= 2.)
@@ -241,7 +241,7 @@ void SizeModels::compare(SizedPlace &judged, const ModelAnswer &finer) const
       continue;
     if (entry.total)
       *entry.total += difference - *entry.mesh.error;
-    entry.mesh = {difference, "against finer cells"};
+    entry.mesh = {difference, "against finer elements"};
   }
   judged.confirmed = true;
   take_shares(judged);

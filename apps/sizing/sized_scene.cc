@@ -97,7 +97,7 @@ std::string sized_scene(const Scene &scene, const std::vector<std::string> &over
     add(override);
   for (const auto &[key, value] : sized_entries(scene, model))
     add(key + '=' + value);
-  return extending_scene(scene.name + " with no more model than its outputs need, by gestell size.", scene.file,
+  return extending_scene(scene.name + " with the smallest model that its outputs need, by gestell size.", scene.file,
                          changes, folder);
 }
 

@@ -36,7 +36,8 @@ struct MapRow
   {
     double value = 0.;
     if (!is_number(text(column), value))
-      throw std::invalid_argument(table.name + ": column '" + column + "' holds '" + text(column) + "', no number");
+      throw std::invalid_argument(table.name + ": column '" + column + "' holds '" + text(column) +
+                                  "', which is not a number");
     return value;
   }
   coupling::TestOscillator oscillator() const { return {number("zeta"), number("omega_h")}; }
@@ -129,8 +130,7 @@ DataTable integrator_map(const std::string &name, const DataTable &expected,
     const auto   method = methods.find(row.text("method"));
     if (method == methods.end())
       throw std::invalid_argument(expected.name + " has a method '" + row.text("method") +
-                                  "' that 'methods' does not name; name it there, or in 'methods_left_out' with the "
-                                  "reason");
+                                  "' that is not in 'methods'; add it there, or to 'methods_left_out' with the reason");
     table.rows.push_back(map.cells(method->second, row));
   }
   return table;
@@ -162,8 +162,8 @@ public:
   {
     for (const auto &[name, value] : case_.requested)
       if (std::find(names_.begin(), names_.end(), name) == names_.end())
-        throw std::invalid_argument(case_.place + ": 'with' has an entry '" + name + "' that \"" + case_.compute +
-                                    "\" does not take" + suggestion(name, names_));
+        throw std::invalid_argument(case_.place + ": 'with' has a key '" + name + "' that \"" + case_.compute +
+                                    "\" does not accept" + suggestion(name, names_));
   }
 
 private:
@@ -301,7 +301,7 @@ DataTable CaseRun::table(const std::string &name, const DataTable &expected) con
       if (const std::string text = file.content(result_); !text.empty())
         return table_of(name, text);
   }
-  throw std::invalid_argument("'" + case_->compute + "' leaves no table '" + name + "'" + suggestion(name, names));
+  throw std::invalid_argument("'" + case_->compute + "' writes no table '" + name + "'" + suggestion(name, names));
 }
 
 double CaseRun::expected(const std::string &formula, const std::string &unit) const
@@ -313,7 +313,7 @@ double CaseRun::expected(const std::string &formula, const std::string &unit) co
   const Quantity needed = parse_quantity("1 " + unit, [](const std::string &) { return std::optional<Quantity>(); });
   if (!equal(own.dimension, needed.dimension))
     throw std::invalid_argument("\"" + formula + "\" is in " + describe(own.dimension) +
-                                ", what it is compared with in " + unit);
+                                ", but the compared value is in " + unit);
   return own.value;
 }
 

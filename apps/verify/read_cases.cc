@@ -214,7 +214,7 @@ std::vector<std::string> case_files(const std::string &folder)
       files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   if (files.empty())
-    throw std::invalid_argument(folder + ": holds no file of cases (.toml)");
+    throw std::invalid_argument(folder + ": contains no case file (.toml)");
   return files;
 }
 
@@ -224,9 +224,9 @@ std::string shipped_cases()
   const fs::path  program = fs::read_symlink("/proc/self/exe", ignored);
   const fs::path  folder  = program.parent_path().parent_path() / "share/gestell/verification";
   if (!fs::is_directory(folder, ignored))
-    throw std::invalid_argument(folder.string() +
-                                ": the cases shipped with the program are not there; install it whole, or name a file "
-                                "of cases, gestell verify cases.toml");
+    throw std::invalid_argument(
+        folder.string() +
+        ": the shipped cases are missing; repair the installation, or name a case file, gestell verify cases.toml");
   return fs::canonical(folder).string();
 }
 

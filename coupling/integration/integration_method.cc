@@ -49,7 +49,7 @@ double IntegrationMethod::number(const MethodOptions &options, const std::string
     return parameter(name).fallback;
   if (const double *value = std::get_if<double>(&given->second))
     return *value;
-  throw std::invalid_argument(this->name() + ": " + name + " is a text; it must be a number");
+  throw std::invalid_argument(this->name() + ": " + name + " is a string; it must be a number");
 }
 
 std::string IntegrationMethod::choice(const MethodOptions &options, const std::string &name) const
@@ -59,7 +59,7 @@ std::string IntegrationMethod::choice(const MethodOptions &options, const std::s
     return parameter(name).choices.front();
   if (const std::string *value = std::get_if<std::string>(&given->second))
     return *value;
-  throw std::invalid_argument(this->name() + ": " + name + " is a number; it must be a text");
+  throw std::invalid_argument(this->name() + ": " + name + " is a number; it must be a string");
 }
 
 MethodOptions IntegrationMethod::named() const

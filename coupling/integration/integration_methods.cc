@@ -33,9 +33,9 @@ void check_steps(const MethodOptions &o, const std::string &label)
   require_parameter(o.step >= 0. && std::isfinite(o.step), label, "step [s]", o.step, "positive");
   require_parameter(o.tolerance >= 0. && o.tolerance < 1., label, "tolerance", o.tolerance, "between 0 and 1");
   require_parameter(o.tolerance == 0. || controllable, label, "tolerance", o.tolerance,
-                    "left out: only " + controlling_methods() + " control their step; give a step");
+                    "omitted, because only " + controlling_methods() + " control their step; set a step");
   require_parameter(o.tolerance == 0. || o.tolerance >= finest_tolerance, label, "tolerance", o.tolerance,
-                    "1e-13 or more: what lies below is rounding");
+                    "1e-13 or more (below is rounding)");
   require_parameter(o.tolerance > 0. || o.step > 0., label, "step [s]", o.step, "positive, or a tolerance be given");
   require_parameter(o.newton.tolerance >= finest_tolerance && o.newton.tolerance < 1., label, "newton_tolerance",
                     o.newton.tolerance, "1e-13 or more, below 1");

@@ -14,7 +14,7 @@ namespace
 {
   const auto     &lags = system.linear().virtual_coordinates();
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(system.linear().size()), column = unit;
-  std::string     massless = "some combination of coordinates";
+  std::string     massless = "a combination of coordinates";
   for (int i = 0; i < system.linear().size(); ++i)
   {
     unit[i] = 1.;
@@ -26,8 +26,8 @@ namespace
       break;
     }
   }
-  throw std::invalid_argument("this machine has no acceleration that a signal could show: " + massless +
-                              " has no mass; give it some, or leave accelerations out of output.signals");
+  throw std::invalid_argument("accelerations are undefined for this machine: " + massless +
+                              " has no mass; give it a mass, or remove accelerations from output.signals");
 }
 
 } // namespace

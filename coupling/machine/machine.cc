@@ -72,7 +72,7 @@ void MachineModel::add_load(const std::string &name, const Measure &u, double co
   for (const Oscillation &part : oscillations)
     if (!(part.omega > 0.))
       throw std::invalid_argument("load \"" + name + "\": circular frequency " + std::to_string(part.omega) +
-                                  " rad/s must be positive; a constant load is given as such");
+                                  " rad/s must be positive; give a constant load as such");
   for (const auto &[coordinate, weight] : u)
     parts_->constant_load.emplace_back(coordinate, weight * constant);
   parts_->loads.push_back({name, force_unit, u, constant, oscillations});

@@ -276,8 +276,8 @@ void MachineModel::refuse_far_turning(const std::string &name, const std::array<
       for (const auto &[coordinate, weight] : u)
         if (coordinate == angle && body.name != name)
           throw std::invalid_argument("\"" + name + "\" is carried by \"" + body.name +
-                                      "\", which rotates through large angles, so that joints and measures cannot "
-                                      "follow it; let it be a planar body with a joint instead");
+                                      "\", which rotates through large angles that joints and measures cannot follow; "
+                                      "use a planar body with a joint instead");
   }
 }
 
@@ -353,10 +353,9 @@ void MachineModel::add_point_mass(const std::string &name, const std::string &ma
   const Marker &at = marker(marker_name);
   for (const Body &body : parts_->bodies)
     if (body.name == marker_name && body.kind == BodyKind::planar && offset != Vector3{})
-      throw std::invalid_argument(
-          "point mass \"" + name + "\": an offset on \"" + marker_name +
-          "\" would turn with it, which a constant mass matrix cannot describe; give the body this "
-          "mass and inertia, or declare a body of its own with a rigid joint");
+      throw std::invalid_argument("point mass \"" + name + "\": an offset on \"" + marker_name +
+                                  "\" would rotate with it, which needs a variable mass matrix; add mass and inertia "
+                                  "to the body itself, or declare a separate body with a rigid joint");
   parts_->add_mass(mass, parts_->moved_point(at, offset));
   for (int d = 0; d < 3; ++d)
     check_mass(inertia[d], "point mass \"" + name + "\": inertia [kg m^2]");

@@ -36,7 +36,7 @@ Eigen::SparseMatrix<double> enlarged(const Eigen::SparseMatrix<double> &a, int n
 int MachineParts::add_coordinates(const std::string &body, const std::vector<std::string> &names)
 {
   if (markers.count(body))
-    throw std::invalid_argument("the name \"" + body + "\" is used twice; give every body its own");
+    throw std::invalid_argument("the name \"" + body + "\" is used twice; give each body a unique name");
   const int first = size();
   coordinate_names.insert(coordinate_names.end(), names.begin(), names.end());
   return first;

@@ -63,16 +63,15 @@ void MachineParts::add_inertia(const std::string &what, const Eigen::Matrix3d &i
     throw std::invalid_argument(what + ": the principal moments of inertia are " + listed(moments) +
                                 "; all must be positive: give a slender rod the inertia about its own axis");
   if (least < -1e-9 * moments[2])
-    throw std::invalid_argument(what + ": the principal moments of inertia are " + listed(moments) +
-                                "; none may exceed the sum of the other two, which no distribution of mass can do: "
-                                "check them, or that they are taken about the centre of mass");
+    throw std::invalid_argument(
+        what + ": the principal moments of inertia are " + listed(moments) +
+        "; none may exceed the sum of the other two: check the values, and that they refer to the centre of mass");
   // Smallest share of E in the largest moment: a thinner body cannot be distinguished from one without thickness.
   constexpr double thinnest = 1e-10;
   if (is_whole_body && !(least > thinnest * moments[2]))
     throw std::invalid_argument(what + ": the principal moments of inertia are " + listed(moments) +
-                                ": the largest is the sum of the others, so that the body has no thickness and its "
-                                "mass matrix no inverse; give it its thickness t, which adds m t^2/12 to the two "
-                                "smaller ones");
+                                ": the largest is the sum of the others, so the body has no thickness and its mass "
+                                "matrix is singular; a thickness t adds m t^2/12 to the two smaller ones");
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       for (int d = 0; d < 3; ++d)
@@ -84,8 +83,8 @@ void MachineParts::refuse_free_carrier(const Marker &carrier, const std::string 
 {
   if (carrier.turns_freely)
     throw std::invalid_argument(what + ": its carrier \"" + carrier.name +
-                                "\" is a free spatial body, which its axis would not follow; make it a rigid body too, "
-                                "held by a revolute or prismatic joint");
+                                "\" is a free spatial body, which its axis cannot follow; make it a rigid body with a "
+                                "revolute or prismatic joint");
 }
 
 std::array<Measure, 3> MachineParts::moved_point(const Marker &marker, const Vector3 &arm) const

@@ -47,8 +47,7 @@ Signal MachineParts::watched_signal(const Switch &request) const
     const Signal watched = signal(request.signal);
     if (watched.reads_acceleration())
       throw std::invalid_argument("\"" + request.signal +
-                                  "\" is an acceleration, in which no event can be located; let a force or a velocity "
-                                  "throw it");
+                                  "\" is an acceleration, which cannot trigger a switch; use a force or a velocity");
     return watched;
   }
   catch (const std::invalid_argument &unfit)
@@ -72,7 +71,7 @@ void MachineModel::add_switch(const Switch &request)
     const auto  known   = command_names(element);
     if (std::find(known.begin(), known.end(), order.name) == known.end())
       throw std::invalid_argument("\"" + name + "\" does not accept the command \"" + order.name + "\"" +
-                                  (known.empty() ? std::string("; it obeys none") : suggestion(order.name, known)));
+                                  (known.empty() ? std::string("; it accepts none") : suggestion(order.name, known)));
     element.commands()->check_order(order);
   }
   parts_->switch_requests.push_back(request);
@@ -127,7 +126,7 @@ void MachineParts::place_switches()
         own.after = static_cast<int>(i);
     if (!own.request.after.empty() && own.after < 0)
       throw std::invalid_argument("switch \"" + own.request.name + "\": there is no switch \"" + own.request.after +
-                                  "\" that it could wait for");
+                                  "\" to wait for");
     own.history = static_cast<int>(history.size());
     history.conservativeResize(history.size() + n_slots);
   }
@@ -273,7 +272,7 @@ void MachineParts::give_orders(int index, const LocalState &state)
     catch (const std::domain_error &beyond) // the law cannot be continued
     {
       std::ostringstream message;
-      message << "at t = " << state.t << " s, switch \"" << own.request.name << "\" tells \"" << given.element
+      message << "at t = " << state.t << " s, switch \"" << own.request.name << "\" commands \"" << given.element
               << "\": " << beyond.what();
       throw ConvergenceFailure(message.str());
     }

@@ -232,7 +232,7 @@ namespace
   message << "\"" << element << "\" has no finite energy at t = " << state.t << ", u = " << state.u[measure]
           << ", u' = " << state.v[measure]
           << " (SI units), the end of the range of its law, as for the piston of a gas at "
-          << "the end of its cylinder; check its place and the loads on it, or end the run before";
+          << "the end of its cylinder; check its position and the loads on it, or end the run before";
   throw ConvergenceFailure(message.str());
 }
 } // namespace

@@ -40,7 +40,8 @@ Measure projection(const std::array<Measure, 3> &motion, const Vector3 &directio
   const double length =
       std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
   if (!(length > 0.))
-    throw std::invalid_argument("marker: a direction of length zero; give three numbers of which one is not zero");
+    throw std::invalid_argument(
+        "marker: the direction has length zero; at least one of its three numbers must not be zero");
   Measure result;
   for (int d = 0; d < 3; ++d)
     if (direction[d] != 0.)
@@ -74,10 +75,9 @@ Measure Marker::along(const Vector3 &direction) const
 Measure Marker::about(const Vector3 &axis) const
 {
   if (turns_freely)
-    throw std::invalid_argument(
-        "\"" + name +
-        "\" is a free spatial body, so that it has no angle about a constant axis; let the element act on a [measure] "
-        "of type \"angle\", or on a rotor that a rigid joint holds to the body");
+    throw std::invalid_argument("\"" + name +
+                                "\" is a free spatial body, which has no angle about a constant axis; use a [measure] "
+                                "of type \"angle\", or a rotor connected to the body by a rigid joint");
   return projection(rotation, axis);
 }
 

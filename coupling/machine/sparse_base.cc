@@ -22,7 +22,7 @@ void require_size(const SparseBase::Matrix &A, const char *name, Eigen::Index n)
 {
   if (A.rows() != n || A.cols() != n)
     throw std::invalid_argument(std::string("SparseBase: ") + name + " is " + std::to_string(A.rows()) + " x " +
-                                std::to_string(A.cols()) + "; needed is " + std::to_string(n) + " x " +
+                                std::to_string(A.cols()) + "; required: " + std::to_string(n) + " x " +
                                 std::to_string(n) + ", as M has that many rows");
 }
 

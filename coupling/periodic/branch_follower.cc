@@ -77,8 +77,7 @@ void BranchFollower::refit(Point &point, bool at_parameter)
       start.tangent << VectorXd::Zero(Z.rows()), 1.;
     start.tangent.normalize();
     if (!correct(Z.col(0), point.lambda, start.tangent, start, fitted) || !finish(start.tangent, fitted))
-      throw ConvergenceFailure("the solution does not converge in its suited unknowns at " +
-                               std::to_string(point.lambda));
+      throw ConvergenceFailure("the solution does not converge at " + std::to_string(point.lambda));
     fitted.iterations = point.iterations;
     point             = fitted;
   }

@@ -73,7 +73,7 @@ std::string why_no_branch(const PeriodicMethod &method)
     if (&one.method == &method && one.branch)
       return "";
   return method.name() +
-         " follows no branch; take --method harmonic-balance --harmonics 1, which has the equations of " +
+         " cannot follow a branch; use --method harmonic-balance --harmonics 1, which has the equations of " +
          "averaging without the limit of small changes";
 }
 

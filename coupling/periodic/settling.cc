@@ -214,12 +214,12 @@ PeriodicSolution reported(const PeriodicProblem &problem, const Settled &settled
 {
   std::ostringstream text;
   text << "the motion does not repeat after " << settled.periods << " periods of " << problem.period
-       << " s: it still misses the initial state by " << settled.error << " of its speed";
+       << " s: it deviates from the initial state by " << settled.error << " of its speed";
   if (settled.contraction > 0.9 && settled.contraction < 1.)
     text << " and converges by " << 100. * (1. - settled.contraction)
          << " % a period; let it settle longer, or use --method shooting";
   else
-    text << " and does not converge: it may repeat after several periods (--ratio 2, 3 ...), or never";
+    text << " and does not converge: it may repeat after several periods (--ratio 2, 3 ...), or not at all";
   throw NoPeriodicMotion(text.str());
 }
 

@@ -55,11 +55,12 @@ TeamService *load_team()
     return nullptr;
   TeamService *const team = team_function<TeamService *()>("gestell_team_service")();
   if (team->size() != launched.size)
-    throw std::invalid_argument(std::string(launched.by) + ": started " + std::to_string(launched.size) +
-                                " processes, but MPI finds " + std::to_string(team->size()) +
-                                ": the launcher is of another MPI than Gestell; use the mpirun of Gestell's MPI "
-                                "(Debian: package openmpi-bin), or srun --mpi=pmix, or " +
-                                way_of_cases);
+    throw std::invalid_argument(
+        std::string(launched.by) + ": started " + std::to_string(launched.size) + " processes, but MPI finds " +
+        std::to_string(team->size()) +
+        ": the launcher belongs to another MPI than that of Gestell; use the mpirun of Gestell's MPI "
+        "(Debian: package openmpi-bin), or srun --mpi=pmix, or " +
+        way_of_cases);
   return team;
 }
 

@@ -14,7 +14,7 @@ void EnergyGuard::step(const EnergyState &state, double size)
 {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   if (!std::isfinite(state.input + state.stored + state.dissipated + state.kinetic + state.forces + size))
-    throw ConvergenceFailure("the motion grew beyond all numbers: its energy is none");
+    throw ConvergenceFailure("the motion diverged: its energy is not finite");
   ++steps_;
   input_.add(state.input);
   dissipated_.add(state.dissipated);
@@ -53,9 +53,9 @@ std::string EnergyGuard::words(const std::string &method) const
   if (verdict == Verdict::closed)
     return "";
   std::ostringstream text;
-  text << std::setprecision(3) << "the energy balance is open by " << residual() << " J, ";
+  text << std::setprecision(3) << "energy balance error " << residual() << " J, ";
   if (exchanged() > 0.)
-    text << 100. * residual() / exchanged() << " % of the " << exchanged() << " J that the motion exchanges, ";
+    text << 100. * residual() / exchanged() << " % of the " << exchanged() << " J exchanged by the motion, ";
   text << (gain_ > loss_ ? "a spurious energy gain: " : "numerical dissipation: ") << method;
   text << (verdict == Verdict::open ? " is too coarse for this motion" : "; the result is not physical");
   return text.str();

@@ -28,7 +28,7 @@ void require_finite(const std::vector<Signal> &signals, const SignalSample &samp
     {
       std::ostringstream message;
       message << "signal " << signals[i].name << " is not a finite number at t = " << sample.t
-              << " s; a formula or law gives none there, or the motion grew beyond all numbers";
+              << " s; a formula or force law gives no finite value there, or the motion diverged";
       throw ConvergenceFailure(message.str());
     }
 }
@@ -41,7 +41,7 @@ std::string non_finite_state_message(double t, const Eigen::VectorXd &q, const E
     return "";
   std::ostringstream message;
   message << "a coordinate is not a finite number at t = " << t
-          << " s; a formula or law gives none there, or the motion grew beyond all numbers";
+          << " s; a formula or force law gives no finite value there, or the motion diverged";
   return message.str();
 }
 
@@ -347,14 +347,14 @@ void Recorder::finish(RunOutcome &outcome)
     if (extremes_.watched(i))
       continue;
     outcome.warn("signal-window", signals_[i].name,
-                 "signal " + signals_[i].name + " is watched from the event \"" + signals_[i].from +
-                     "\" on, which did not happen: its extremes are those of the end");
+                 "signal " + signals_[i].name + " is evaluated from the event \"" + signals_[i].from +
+                     "\", which did not occur: its extremes are the values at the end");
     extremes_.reset_extremes(i);
   }
   if (!extremes_.reached())
     outcome.warn("result-window", "output.from",
                  "the run ended before output.from = " + short_text(options_.from) +
-                     " s, from which on extremes count: they are the values at the end");
+                     " s, the start of the window for extremes: extremes are the values at the end");
   if (energy_)
     energy_->finish(outcome);
 }

@@ -36,10 +36,11 @@ void RoundingGuard::finish(const LinearSystem &system, double exchanged, double 
   work.maxCoeff(&worst);
   std::ostringstream text;
   text.precision(2);
-  text << "forces on " << system.coordinate_name(int(worst)) << " are rounding: beside its stiffness of "
-       << C(worst, worst) << " (N/m or N m/rad) at a motion of " << size[worst] << " (m or rad) they are known to "
-       << force[worst] << " (N or N m), which does " << work.sum() << " J of work where the motion exchanges "
-       << exchanged << " J; make what is so stiff rigid by a joint, or softer";
+  text << "forces on " << system.coordinate_name(int(worst)) << " are dominated by rounding: with a stiffness of "
+       << C(worst, worst) << " (N/m or N m/rad) and a displacement of " << size[worst]
+       << " (m or rad) their accuracy is " << force[worst] << " (N or N m), equivalent to " << work.sum()
+       << " J of work, while the motion exchanges " << exchanged
+       << " J; replace the stiff connection by a joint, or reduce its stiffness";
   outcome.warn("rounding", system.coordinate_name(int(worst)), text.str());
 }
 

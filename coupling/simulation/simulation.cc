@@ -58,19 +58,19 @@ void require_size(const Machine &machine, const RunOptions &options, std::size_t
   constexpr double most_pictures = 2e4; // chosen: half an hour of a film at 10 pictures a second
   const double     count = options.picture_step > 0. ? (options.end - options.begin) / options.picture_step : 0.;
   if (!options.allow_large && count > most_pictures)
-    too_large("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",
-              options.picture_step, " s, or say output.allow_large = true if that is what you want");
+    too_large("output.picture_step gives ", count, " pictures of several files each; use more than ",
+              options.picture_step, " s, or set output.allow_large = true");
   const auto [history, pictures, states] = kept_bytes(machine, options, n_signals);
   constexpr double most_bytes            = 1e9; // what a laptop has to spare
   if (!options.allow_large && states > most_bytes)
-    too_large("the run would keep ", states / 1e9, " GB of states to find the largest stress; give output.stress.step ",
-              "a larger value than ", options.states.step, " s, or say output.allow_large = true");
+    too_large("the run would store ", states / 1e9, " GB of states to find the largest stress; set output.stress.step ",
+              "above ", options.states.step, " s, or set output.allow_large = true");
   if (options.allow_large || history + pictures <= most_bytes)
     return;
-  too_large("the run would keep ", history / 1e9, " GB of history and ", pictures / 1e9,
-            " GB of states for pictures; give output.step", history > pictures ? "" : " or output.picture_step",
-            " a larger value than ", history > pictures ? output_step(options) : options.picture_step,
-            " s, or say output.allow_large = true if that is what you want");
+  too_large("the run would store ", history / 1e9, " GB of history and ", pictures / 1e9,
+            " GB of states for pictures; set output.step", history > pictures ? "" : " or output.picture_step",
+            " above ", history > pictures ? output_step(options) : options.picture_step,
+            " s, or set output.allow_large = true");
 }
 
 /// Requests the state of a run from time to time, so that it can be resumed.
@@ -126,8 +126,8 @@ EventOptions event_options(const RunOptions &options, double still)
 void fail_at_start(const ConvergenceFailure &failure, const Machine &machine, RunResult &result)
 {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  result.failure        = std::string("the machine does not start: ") + failure.what() +
-                   faults_of(machine, -std::numeric_limits<double>::infinity());
+  result.failure =
+      std::string("no initial state: ") + failure.what() + faults_of(machine, -std::numeric_limits<double>::infinity());
   for (SignalSummary &signal : result.signals)
     signal.min = signal.t_min = signal.max = signal.t_max = signal.final = none;
 }
@@ -138,12 +138,11 @@ void check_run(const Machine &machine, const RunOptions &options, std::size_t n_
 {
   check_method(options.method);
   if (!(options.end > options.begin))
-    refuse("run.end is ", options.end, " s; it must lie after the start at ", options.begin, " s");
+    refuse("run.end is ", options.end, " s; it must be after the start at ", options.begin, " s");
   if (!(options.from < options.end))
-    refuse("output.from is ", options.from,
-           " s; extremes count from there on, so that it must lie before run.end = ", options.end, " s");
+    refuse("output.from is ", options.from, " s; it must be before run.end = ", options.end, " s");
   if (!controlled(options.method) && !((options.end - options.begin) / options.method.step <= most_steps))
-    refuse("run.step is ", options.method.step, " s; that makes more than 1e10 steps; take a longer one");
+    refuse("run.step is ", options.method.step, " s, which gives more than 1e10 steps; use a longer step");
   require_steps_for_loads(machine, options.method);
   require_size(machine, options, n_signals);
 }
@@ -311,7 +310,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   check_run(machine, options, signals.size());
   const auto [history, pictures, states] = kept_bytes(machine, options, signals.size());
   fem::require_available("the rows of history, and states for pictures and stresses,", history + pictures + states,
-                         "Give output.step, output.picture_step or output.stress.step a larger value.");
+                         "Increase output.step, output.picture_step or output.stress.step.");
   machine.will_read(signals);
   const MethodOptions method = with_largest_step(machine, options);
   RunResult           result;

@@ -246,9 +246,9 @@ void require_held_parts(const DenseModes &modes, const MatrixXd &M, const Matrix
   constexpr double rest_share = 1e-3; // of the kinetic energy of such a motion that no rigid one of the whole has
   for (Index k = 0; k < n_free; ++k)
     if (rest.col(k).dot(M * rest.col(k)) > rest_share)
-      throw std::invalid_argument(place + ": the joints let part '" + part_moved_by(rest.col(k)) +
-                                  "' move freely relative to the others; join it by a weld, or by bolts with stiffness "
-                                  "in all directions and against rotation");
+      throw std::invalid_argument(place + ": the joints leave part '" + part_moved_by(rest.col(k)) +
+                                  "' free relative to the others; join it by a weld, or by bolts with stiffness in all "
+                                  "directions and against rotation");
 }
 
 /// States the errors by the modes that parts leave out.

@@ -109,7 +109,7 @@ void require_single_use(const FrameOfParts &frame)
       for (const JointEnd &end : joint.between)
         if (const auto [other, is_new] = user.emplace(end.name(), joint.name); !is_new)
           refuse(joint.place, "interface '" + end.name() + "' is joined by '" + other->second +
-                                  "' already; divide its surfaces into one interface for each joint");
+                                  "'; divide its surfaces into one interface for each joint");
 }
 
 /// Parts that joints connect with the first one.

@@ -150,7 +150,7 @@ public:
     {
       std::ostringstream message;
       message << "solids \"" << solids_[0] << "\" and \"" << solids_[1]
-              << "\" cannot be tied: no cell has a place for (" << x.transpose()
+              << "\" cannot be tied: no element contains the point (" << x.transpose()
               << ") m; give the surface between them a smaller size";
       throw std::runtime_error(message.str());
     }

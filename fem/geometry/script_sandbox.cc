@@ -19,8 +19,8 @@ namespace
 
 namespace files = std::filesystem;
 
-constexpr const char *way_out = "; the script of a frame may draw, set sizes, mesh, and read files of its own folder. "
-                                "Remove the line, or give --trust-scripts if you know the whole script.";
+constexpr const char *way_out = "; the script of a frame may only draw, set sizes, mesh, and read files of its folder. "
+                                "Remove the line, or use --trust-scripts if you trust the whole script.";
 
 void require_mesh(const std::string &place, const files::path &file)
 {

@@ -33,7 +33,7 @@ public:
   {
     const std::lock_guard<std::mutex> alone(mutex_);
     if (failure_)
-      throw std::runtime_error("ended, as another one has failed");
+      throw std::runtime_error("ended, because another one failed");
     phase_ = phase;
   }
   void finish_one()

@@ -12,7 +12,7 @@ std::string why_unreachable(const fs::path &name)
   std::error_code error;
   return fs::status_known(fs::status(name, error))
              ? std::string()
-             : "cannot be reached (" + error.message() + "); give another name, or fix the cause";
+             : "cannot be accessed (" + error.message() + "); use another path, or fix the cause";
 }
 
 std::string other_than_file(const fs::path &name)

@@ -13,7 +13,7 @@ FollowerLoad::FollowerLoad(const Placement &point, const Vector3d &e, std::share
 {
   require(law_->n_measures() == 1, "follower load", "number of measures of its law", law_->n_measures(), "1");
   require(point_.n_measures() > 0, "follower load", "number of motions of its point", 0.,
-          "1 or more: it lies on a body");
+          "1 or more, because it is on a body");
 }
 
 FollowerLoad::Kinematics FollowerLoad::kinematics_of(const LocalMotion &motion) const

@@ -34,7 +34,7 @@ void GasForce::stiffest(const double *, double *K, double *) const
 void GasForce::start(const LocalMotion &motion, double *history) const
 {
   const double V = volume(motion.u[0]);
-  require(V > 0., "gas force", "volume at the start [m^3]", V, "positive; look at 'dead_centre_at' and 'side'");
+  require(V > 0., "gas force", "volume at the start [m^3]", V, "positive; check 'dead_centre_at' and 'side'");
   history[0] = closed;
   history[1] = parameters_.initial_pressure * std::pow(V, parameters_.exponent);
 }

@@ -68,7 +68,7 @@ RollingBearing::RollingBearing(const Parameters &parameters)
     require(std::isfinite(row.deflection) && row.deflection > rows.back().deflection, name, "deflection [m] of a row",
             row.deflection, "above " + digits(rows.back().deflection) + ": rows rise from zero");
     require(std::isfinite(row.force) && row.force >= rows.back().force, name, "force [N] of a row", row.force,
-            "at least " + digits(rows.back().force) + ": a bearing resists more the further it yields");
+            "at least " + digits(rows.back().force) + ": the force must grow with the deflection");
     rows.push_back(row);
   }
   require(rows.back().force > 0., name, "force [N] of the last row", rows.back().force, "positive");

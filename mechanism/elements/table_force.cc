@@ -23,12 +23,12 @@ void check(const std::vector<TableForce::Row> &rows)
       continue;
     const double       last = rows[i - 1].x;
     std::ostringstream before;
-    before << last << " of the row before, or above it; put the rows in ascending order";
+    before << last << " of the previous row, or above it; sort the rows in ascending order";
     require(rows[i].x >= last, name, row + ", abscissa", rows[i].x, before.str());
     require(i == 1 || rows[i].x > rows[i - 2].x, name, row + ", abscissa", rows[i].x,
-            "above that of the two rows before; two rows make a jump, a third says nothing");
+            "above that of the two rows before; two rows make a jump, a third row is not allowed");
     require(rows[i].x == last || std::isfinite((rows[i].force - rows[i - 1].force) / (rows[i].x - last)), name,
-            row + ", abscissa", rows[i].x, "further from the row before, or equal to it for a jump");
+            row + ", abscissa", rows[i].x, "farther from the previous row, or equal to it for a jump");
   }
 }
 

@@ -24,7 +24,7 @@ void check(const std::vector<CubicSpline::Point> &points)
     if (i == 0)
       continue;
     std::ostringstream before;
-    before << "above " << points[i - 1].x << " of the row before; put the rows in ascending order";
+    before << "above " << points[i - 1].x << " of the previous row; sort the rows in ascending order";
     require(points[i].x > points[i - 1].x, name, row + ", abscissa", points[i].x, before.str());
   }
 }

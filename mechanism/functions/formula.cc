@@ -77,7 +77,7 @@ Formula Formula::with_kink(Op op, const std::string &function) const
 Formula Formula::folded() const
 {
   require(depth_ <= max_depth, "formula", "intermediate results at once", depth_,
-          std::to_string(max_depth) + " or fewer; write it with fewer parentheses inside parentheses");
+          std::to_string(max_depth) + " or fewer; reduce the nesting of parentheses");
   require(n_kinks() <= max_kinks, "formula", "number of abs, min, max, sign, step and if", n_kinks(),
           std::to_string(max_kinks) + " or fewer; use a table");
   return n_variables() > 0 ? *this : Formula(value<double>(nullptr));

@@ -43,7 +43,7 @@ void PositionFunction::check_closure() const
   const auto        compare = [&](const std::string &what, double here, double there, double unit)
   {
     std::ostringstream needed;
-    needed << there << ", as where the next one begins" << out;
+    needed << there << ", equal to the beginning of the next period" << out;
     constexpr double joined = 1e-9; // gap at the ends of a period: rounding of constants such as pi
     require(std::abs(here - there) <= joined * scale / unit, name, what + " at the end of the period", here,
             needed.str());

@@ -23,9 +23,9 @@ Profile::Profile(const std::string &name, double from, const std::vector<Ramp> &
     require(ramp.rate > 0., name, row + ", largest rate", ramp.rate, "positive");
     require(ramp.rate_of_rate > 0., name, row + ", largest rate of rate", ramp.rate_of_rate, "positive");
     std::ostringstream before;
-    before << end() << " s, where the ramp before ends, or later";
+    before << end() << " s (end of the previous ramp) or later";
     require(i == 0 || is_constant() || ramp.at >= end(), name, row + ", begin [s]", ramp.at, before.str());
-    require(i == 0 || ramp.at > ramps[i - 1].at, name, row + ", begin [s]", ramp.at, "after that of the ramp before");
+    require(i == 0 || ramp.at > ramps[i - 1].at, name, row + ", begin [s]", ramp.at, "after that of the previous ramp");
     if (ramp.to == level)
       continue;
     Piece     of_ramp[most_pieces];

@@ -22,7 +22,7 @@ CompliantJoint::CompliantJoint(const Placement &first, const Placement &second, 
   for (const Equation &equation : equations_)
   {
     const std::string place = "compliant joint " + equation.demand.name;
-    require(!equation.demand.driven, place, "number of motion laws", 1., "none: only an ideal joint follows one");
+    require(!equation.demand.driven, place, "number of motion laws", 1., "none; only an ideal joint can have one");
     require(equation.stiffness >= 0., place, "stiffness", equation.stiffness, "zero or positive");
     require(equation.damping >= 0., place, "damping", equation.damping, "zero or positive");
   }

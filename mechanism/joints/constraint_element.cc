@@ -38,9 +38,9 @@ bool ConstraintElement::command(const SwitchCommand &order, const LocalMotion &m
   if (const double after = law_->at(motion.t, history).rate; differ(before, after))
   {
     std::ostringstream message;
-    message << "the order \"" << order.name << "\" makes the speed of the prescribed motion jump from " << before
+    message << "the command \"" << order.name << "\" makes the speed of the prescribed motion jump from " << before
             << " to " << after
-            << ", an impact that an ideal joint cannot carry; order \"set\" with an acceleration first";
+            << ", an impact that an ideal joint cannot transmit; first command \"set\" with an acceleration";
     throw std::domain_error(message.str());
   }
   return true;

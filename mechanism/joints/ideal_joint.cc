@@ -32,7 +32,7 @@ IdealJoint::IdealJoint(const Placement &first, const Placement &second, std::vec
     }
   }
   require(driven == is_driven(), "joint", "number of motion laws", is_driven() ? 1. : 0.,
-          "one if an equation is driven, else none");
+          "one for a driven equation, otherwise none");
 }
 
 IdealJoint::Points::Points(const IdealJoint &joint, const LocalMotion &motion, const double *v)

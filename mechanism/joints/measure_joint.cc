@@ -20,9 +20,8 @@ void refuse_jump(const std::string &kink, const std::string &what, double before
     return;
   std::ostringstream message;
   message << what << " jumps from " << before << " to " << after << " (" << kink
-          << "), an impact that an ideal joint cannot carry; round the course off there, or let it act through a "
-             "spring: an "
-             "element on a measure of type \"position function\", instead of the joint";
+          << "), an impact that an ideal joint cannot transmit; smooth the function there, or let it act through a "
+             "spring: an element on a measure of type \"position function\", instead of the joint";
   throw std::domain_error(message.str());
 }
 

@@ -134,10 +134,9 @@ bool BrakedMotion::command(const SwitchCommand &order, double t, double *history
 void BrakedMotion::check_order(const SwitchCommand &order) const
 {
   if (std::isfinite(order.rate) || std::isfinite(order.rate_of_rate))
-    throw std::invalid_argument(
-        "braked motion: the order \"" + order.name +
-        "\" takes neither an acceleration nor a jerk, since the key 'brake' of the motion gives "
-        "how it brakes; leave them out, or that key");
+    throw std::invalid_argument("braked motion: the command \"" + order.name +
+                                "\" allows neither an acceleration nor a jerk, because the key 'brake' of the motion "
+                                "defines them; remove them, or this key");
 }
 
 // --- a profile of the speed
@@ -152,7 +151,7 @@ ProfileMotion::ProfileMotion(const CommandedProfile &speed) : speed_(speed)
   {
     const double t = profile.corner(piece), before = profile.value(piece, t), after = profile.value(piece + 1, t);
     require(std::abs(after - before) <= 1e-9 * largest, "prescribed motion", "jump of the speed", after - before,
-            "zero: give its ramps a largest 'acceleration', as no finite force makes masses jump");
+            "zero; limit the 'acceleration' of its ramps, because a jump of the speed needs an infinite force");
   }
   if (speed_.waits())
   {
@@ -160,7 +159,7 @@ ProfileMotion::ProfileMotion(const CommandedProfile &speed) : speed_(speed)
     speed_.start(0., history.data());
     const double before = speed_.at(0., true, history.data()).value, after = profile.value(profile.piece_at(0.), 0.);
     require(std::abs(after - before) <= 1e-9 * largest, "prescribed motion", "jump of the speed at its start",
-            after - before, "zero: give ramps with a largest 'acceleration' from the initial speed on");
+            after - before, "zero; add ramps with limited 'acceleration' from the initial speed");
   }
 }
 
@@ -206,8 +205,8 @@ std::vector<std::string> ProfileMotion::commands() const
 void ProfileMotion::check_order(const SwitchCommand &order) const
 {
   if ((order.name == "set" || order.name == "brake") && !std::isfinite(order.rate))
-    throw std::invalid_argument("prescribed motion: the order \"" + order.name +
-                                "\" needs an 'acceleration', as no finite force makes masses jump");
+    throw std::invalid_argument("prescribed motion: the command \"" + order.name +
+                                "\" needs an 'acceleration', because a jump of the speed needs an infinite force");
 }
 
 } // namespace gestell::mechanism

@@ -75,7 +75,7 @@ TEST(Profile, RefusesRampsThatOverlapOrStandStill)
         Profile("drive", 0., {{1., 2., 4.}, {1.4, 3.}});
       },
       "ramp 2, begin [s] = 1.4, but it must "
-      "be 1.5 s, where the ramp before ends");
+      "be 1.5 s (end of the previous ramp)");
   expect_refusal([] { Profile("drive", 0., {{1., 2., 0.}}); }, "ramp 1, largest rate = 0");
   expect_refusal([] { Profile("drive", 0., {{1., 2., 1., -1.}}); }, "largest rate of rate = -1");
   expect_refusal([] { Profile("drive", 0., {{1., std::nan("")}}); }, "level");

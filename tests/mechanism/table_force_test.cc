@@ -127,11 +127,11 @@ TEST(TableForce, RefusesARowByItsNumber)
     expect_refusal([&] { TableForce({Against::time, rows}); }, words);
   };
   refused({{0., 1.}}, "number of rows = 1");
-  refused({{0., 1.}, {2., 1.}, {1., 1.}}, "row 3, abscissa = 1, but it must be 2 of the row before");
+  refused({{0., 1.}, {2., 1.}, {1., 1.}}, "row 3, abscissa = 1, but it must be 2 of the previous row");
   refused({{0., 1.}, {0., 2.}, {0., 3.}}, "row 3, abscissa = 0");
   refused({{0., 1.}, {std::nan(""), 2.}}, "row 2, abscissa");
   refused({{0., 1.}, {1., HUGE_VAL}}, "row 2, force");
-  refused({{0., 0.}, {1e-320, 1e10}}, "further from the row before");
+  refused({{0., 0.}, {1e-320, 1e10}}, "farther from the previous row");
 }
 
 // At rest its stiffness is that of its force, along the load and across it; the rows of a table are met.

@@ -71,9 +71,9 @@ bool begins(const std::string &text, const std::string &words)
 /// Newton failed, or events were more than are located.
 bool has_cause(const RandomMachine &machine, const std::string &warning, const Told &reported, bool accurate)
 {
-  if (!accurate && begins(warning, "the energy balance is open"))
+  if (!accurate && begins(warning, "energy balance error"))
     return reported.run.energy.residual > 0.01 * reported.run.energy.exchanged;
-  if (!accurate && begins(warning, "Newton failed"))
+  if (!accurate && begins(warning, "Newton's method failed"))
     return reported.run.work.rejected > 0;
   if (!accurate && begins(warning, "chatter"))
     return reported.run.work.chatter > 0;

@@ -77,7 +77,7 @@ std::vector<std::vector<std::size_t>> groups(const ModesAlong &modes)
 
 std::string meeting_text(const AlongResult &along, const coupling::OrderMeeting &meeting)
 {
-  return "order " + std::to_string(meeting.order) + " meets line " + std::to_string(meeting.line + 1) + " at " +
+  return "order " + std::to_string(meeting.order) + " is close to line " + std::to_string(meeting.line + 1) + " at " +
          at_text(along.modes, meeting.x) + ", " + short_text(meeting.frequency_hz, 5) + " Hz";
 }
 
@@ -136,8 +136,9 @@ void set_height(const AlongResult &along, const std::vector<std::size_t> &lines,
 
 HtmlTable line_table(const AlongResult &along)
 {
-  HtmlTable table({"#line", "#lowest f [Hz]", "#at", "#highest f [Hz]", "#at", "#damping ratio from", "#to",
-                   "#least MAC", "dominant DOF at first"});
+  HtmlTable table({"#line", "#lowest frequency [Hz]", "#position", "#highest frequency [Hz]", "#position",
+                   "#lowest damping ratio", "#highest damping ratio", "#smallest MAC",
+                   "dominant DOF at the first position"});
   for (std::size_t i = 0; i < along.modes.free.size(); ++i)
   {
     const LineExtremes own  = line_extremes(along.modes, i);
@@ -145,7 +146,7 @@ HtmlTable line_table(const AlongResult &along)
     if (along.modes.free[i])
     {
       table.add({line, "–", "–", "–", "–", "–", "–", short_text(own.least_assurance, 3),
-                 moves + "; free, without a frequency"});
+                 moves + "; unconstrained, zero frequency"});
       continue;
     }
     table.add({line, short_text(own.min, 6), at_text(along.modes, own.x_min), short_text(own.max, 6),
@@ -164,7 +165,8 @@ void add_meetings(const AlongResult &along, std::vector<Section::Part> &parts)
   if (!(along.speed > 0.))
   {
     parts.push_back(
-        Part{"No speed is known, so that there are no orders to compare with: give --speed \"30 1/min\".", true, true});
+        Part{"The speed is unknown, so orders are not compared. Set it, for example with --speed \"30 1/min\".", true,
+             true});
     return;
   }
   const std::string orders = "of " + short_text(along.speed * 30. / M_PI, 5) + " 1/min",
@@ -172,15 +174,15 @@ void add_meetings(const AlongResult &along, std::vector<Section::Part> &parts)
   if (along.meetings.empty())
   {
     parts.push_back(
-        Part{"None of the orders 1 to " + std::to_string(along.orders) + " " + orders + " comes " + within + "."});
+        Part{"None of the orders 1 to " + std::to_string(along.orders) + " " + orders + " is " + within + "."});
     return;
   }
-  HtmlTable table({"#order", "#line", "#from", "#to", "#nearest at", "#f [Hz]", "#apart"});
+  HtmlTable table({"#order", "#line", "#from", "#to", "#closest at", "#frequency [Hz]", "#distance"});
   for (const coupling::OrderMeeting &meeting : along.meetings)
     table.add({std::to_string(meeting.order), std::to_string(meeting.line + 1), at_text(along.modes, meeting.begin),
                at_text(along.modes, meeting.end), at_text(along.modes, meeting.x), short_text(meeting.frequency_hz, 5),
                short_text(100. * meeting.distance, 2) + " %"});
-  parts.push_back(Part{"Orders " + orders + " " + within + ", as rings in the charts:"});
+  parts.push_back(Part{"Orders " + orders + " " + within + " (rings in the charts):"});
   parts.push_back(table);
 }
 
@@ -201,7 +203,7 @@ void add_shapes(const Result &result, const ModesAlong &modes, std::vector<Secti
   constexpr std::size_t most_shapes = 4; // a row of pictures each
   lines.resize(std::min(lines.size(), most_shapes));
   if (!lines.empty())
-    parts.push_back(Section::Sentences{"Shapes where lines are lowest and highest:", true});
+    parts.push_back(Section::Sentences{"Mode shapes at the lowest and highest frequency of each line:", true});
   for (const std::size_t i : lines)
     for (const bool highest : {false, true})
     {
@@ -223,18 +225,18 @@ std::string statement(const AlongResult &along)
   for (const ModesAt &at : along.modes.positions)
     if (at.gap.empty())
       ++(at.configuration == coupling::Configuration::equilibrium ? deflected : undeformed);
-  std::string text = "The machine linearised at " + std::to_string(deflected + undeformed) + " positions of " +
+  std::string text = "Machine linearised at " + std::to_string(deflected + undeformed) + " positions of " +
                      along.modes.coordinate.name + ": ";
   if (deflected > 0)
     text += std::to_string(deflected) + " in static equilibrium" + (undeformed > 0 ? ", " : "");
   if (undeformed > 0)
     text += std::to_string(undeformed) + " undeformed";
   text += along.geometric == coupling::GeometricStiffness::included ? "; with" : "; without";
-  text += " geometric stiffness. Technological forces and drives rest. ";
-  text += !along.fixed.empty()                ? "At rest: " + along.fixed + "."
-          : along.modes.coordinate.joint >= 0 ? "The driven joint keeps its length in the linearised machine."
-                                              : "The coordinate moves freely about each position.";
-  return text + " A line follows one shape by its modal assurance (MAC) in the metric of mass.";
+  text += " geometric stiffness. Tool forces and drives are switched off. ";
+  text += !along.fixed.empty()                ? "Fixed: " + along.fixed + "."
+          : along.modes.coordinate.joint >= 0 ? "The driven joint has constant length in the linearised machine."
+                                              : "The coordinate is free at each position.";
+  return text + " Each line follows one mode shape by the mass-weighted modal assurance criterion (MAC).";
 }
 
 /// Frequencies of some lines over the coordinate.

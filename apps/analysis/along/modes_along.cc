@@ -29,7 +29,7 @@ void set_range(const coupling::SweptCoordinate &coordinate, const ModesOptions &
   const bool given = !options.from.empty() || !options.to.empty();
   if (!coordinate.full_turn && (options.from.empty() || options.to.empty()))
     throw std::invalid_argument(
-        "--along " + coordinate.name + " does not make full turns; give its range, such as " +
+        "--along " + coordinate.name + " is not a full rotation; give a range, such as " +
         (coordinate.unit == "rad" ? "--from \"-20 deg\" --to \"20 deg\"" : "--from \"2.4 m\" --to \"3.1 m\""));
   const Kind &kind = coordinate.unit == "rad" ? kind::angle : kind::length;
   along.from       = options.from.empty() ? 0. : option_value("--from", options.from, kind);
@@ -63,7 +63,7 @@ AlongResult modes_along_result(const Scene &scene, PreparedMachine &prepared, co
   fem::require_available("--positions " + std::to_string(options.positions) + ": the modes at each",
                          double(options.positions) * std::min(scene.modes.number, machine.size()) *
                              (sizeof(coupling::Mode) + 8. * machine.size()),
-                         "Ask for fewer positions, or for fewer modes (modes.number).");
+                         "Use fewer positions or fewer modes (modes.number).");
   along.configuration           = options.configuration == "undeformed" ? coupling::Configuration::undeformed
                                                                         : coupling::Configuration::equilibrium;
   along.lines                   = scene.modes.number;
@@ -73,7 +73,7 @@ AlongResult modes_along_result(const Scene &scene, PreparedMachine &prepared, co
   {
     const coupling::SweptCoordinate held = named("--hold", machine, name);
     if (held.coordinate < 0)
-      throw std::invalid_argument("--hold " + name + ": only coordinates of bodies can be held, such as " +
+      throw std::invalid_argument("--hold " + name + ": only coordinates of bodies can be fixed, such as " +
                                   machine.coordinate_name(machine.model().n_frame()));
     along.linearisation.fixed.push_back(held.coordinate);
     result.fixed += (result.fixed.empty() ? "" : ", ") + held.name;
@@ -82,7 +82,7 @@ AlongResult modes_along_result(const Scene &scene, PreparedMachine &prepared, co
   result.band      = option_value("--band", options.band, kind::number);
   result.geometric = along.linearisation.geometric;
   if (!(result.band > 0.) || !(result.band < 1.))
-    throw std::invalid_argument("--band is " + options.band + "; it needs a share between 0 and 1, such as \"5 %\"");
+    throw std::invalid_argument("--band is " + options.band + "; it must be between 0 and 1, such as \"5 %\"");
 
   const coupling::InitialState start = initial_state(scene, machine);
   result.speed                       = options.speed.empty() ? start_speed(coordinate, start)
@@ -109,8 +109,8 @@ std::vector<std::string> along_warnings(const AlongResult &along)
     for (std::size_t i = 0; i < at.assurance.size(); ++i)
       if (at.assurance[i] < doubtful && i < at.modes.size() && at.modes[i].frequency_hz > 0.)
         warnings.push_back("line " + std::to_string(i + 1) + " is uncertain at " + position_text(coordinate, at.x) +
-                           ": its modal assurance is " + short_text(at.assurance[i], 2) +
-                           "; look at the shapes, or take more --positions");
+                           ": modal assurance criterion " + short_text(at.assurance[i], 2) +
+                           "; check the mode shapes, or increase --positions");
   }
   constexpr std::size_t most_listed = 5; // lines of standard error
   if (const std::size_t more = warnings.size(); more > most_listed)
@@ -120,9 +120,10 @@ std::vector<std::string> along_warnings(const AlongResult &along)
   }
   if (gaps > 0)
     warnings.insert(warnings.begin(), std::to_string(gaps) + " of " + std::to_string(along.modes.positions.size()) +
-                                          " positions are left out; " + first_gap);
+                                          " positions are omitted; first at " + first_gap);
   if (undeformed > 0)
-    warnings.insert(warnings.begin(), std::to_string(undeformed) + " positions are undeformed; " + first_undeformed);
+    warnings.insert(warnings.begin(),
+                    std::to_string(undeformed) + " positions are linearised undeformed; first at " + first_undeformed);
   return warnings;
 }
 

@@ -43,8 +43,8 @@ double percent_of(double error, const BudgetEntry &entry)
 Chart errors_chart(const ErrorBudget &budget)
 {
   Chart chart;
-  chart.title    = "Errors of the outputs by their cause";
-  chart.note     = "numbers of the outputs as in the table below";
+  chart.title    = "Output errors by cause";
+  chart.note     = "output numbers: see the table below";
   chart.width    = 560.;
   chart.x.label  = "output";
   chart.y.label  = "error [% of the value]";
@@ -78,7 +78,7 @@ Chart errors_chart(const ErrorBudget &budget)
 Chart cost_chart(const ErrorBudget &budget)
 {
   Chart chart;
-  chart.title        = "What it cost to know";
+  chart.title        = "CPU time of the error budget";
   chart.note         = "1: the run; second models: 2 mesh, 3 reduction, 4 time";
   chart.width        = 480.;
   chart.x.begin      = 0.5;
@@ -103,7 +103,7 @@ Chart cost_chart(const ErrorBudget &budget)
 
 std::string cell(const std::optional<double> &error)
 {
-  return error ? short_text(*error, 2) : "not known";
+  return error ? short_text(*error, 2) : "unknown";
 }
 
 } // namespace
@@ -111,14 +111,15 @@ std::string cell(const std::optional<double> &error)
 std::vector<Section> sections_of(const Result &, const ErrorBudget &budget)
 {
   Section section{"budget", "Error budget", "Error budget", Section::Place::results};
-  section.parts.push_back(Section::Sentences{"How far the outputs may be off, by a second model for each cause: "
+  section.parts.push_back(Section::Sentences{"Estimated errors of the outputs, each by comparison with a second model: "
                                              "another mesh, more modes, a finer integration.",
                                              true});
   for (const auto &[name, chart] :
        {std::pair("budget-errors", errors_chart(budget)), std::pair("budget-cost", cost_chart(budget))})
     section.parts.push_back(Section::Drawing{name, chart, ChartLink::none, Section::Drawing::Shown::picture});
-  HtmlTable table({"#", "output", "#value", "unit", "#mesh", "#reduction", "#time", "#total"});
-  int       number = 0;
+  HtmlTable table(
+      {"#no.", "output", "#value", "unit", "#mesh error", "#reduction error", "#time error", "#total error"});
+  int number = 0;
   for (const BudgetEntry &entry : budget.entries)
   {
     table.add({std::to_string(++number), entry.output, short_text(entry.value, 7), entry.unit, cell(entry.mesh.error),
@@ -126,7 +127,7 @@ std::vector<Section> sections_of(const Result &, const ErrorBudget &budget)
     for (const Cause &cause : causes)
       if (const BudgetPart &part = entry.*cause.part; !part.error)
         table.add_note(entry.output + ", " + cause.name + ": " + part.reason +
-                       (entry.bracket ? "; values lie between " + short_text(entry.bracket->first, 5) + " and " +
+                       (entry.bracket ? "; values are between " + short_text(entry.bracket->first, 5) + " and " +
                                             short_text(entry.bracket->second, 5) + " " + entry.unit
                                       : ""));
   }
@@ -164,7 +165,7 @@ public:
     }
     catch (const std::runtime_error &failure)
     {
-      result.warnings.push_back("there is no error budget: " + std::string(failure.what()));
+      result.warnings.push_back("no error budget: " + std::string(failure.what()));
       return session.interruption() && *session.interruption() ? AnalysisOutcome::interrupted : AnalysisOutcome::failed;
     }
   }

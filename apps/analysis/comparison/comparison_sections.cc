@@ -96,8 +96,8 @@ std::string deviation(double ratio)
 
 HtmlTable pairs_table(const ComparedShapes &shapes)
 {
-  HtmlTable table(
-      {"#mode", "#f [Hz]", "#other mode", "#f [Hz]", "#other higher by", "#MAC", "#seen", "#seen of the other"});
+  HtmlTable table({"#mode", "#frequency [Hz]", "#other mode", "#other frequency [Hz]", "#frequency difference", "#MAC",
+                   "#observability", "#other observability"});
   for (const coupling::ModePair &pair : shapes.match.pairs)
     table.add({std::to_string(pair.a + 1), short_text(shapes.a.modes[std::size_t(pair.a)].frequency_hz, 6),
                std::to_string(pair.b + 1), short_text(shapes.b.modes[std::size_t(pair.b)].frequency_hz, 6),
@@ -130,8 +130,8 @@ HtmlTable mac_table(const ComparedShapes &shapes)
 
 HtmlTable extremes_table(const coupling::RunResult &run, const ComparedRun &other)
 {
-  HtmlTable table(
-      {"signal", "unit", "#largest", "#there", "#change of magnitude", "#smallest", "#there", "#change of magnitude"});
+  HtmlTable   table({"signal", "unit", "#maximum", "#other maximum", "#other magnitude", "#minimum", "#other minimum",
+                     "#other magnitude"});
   const Noise noise = noise_of(run.signals);
   for (const SharedSignal shared : shared_signals(run, other.run))
   {
@@ -151,9 +151,9 @@ HtmlTable extremes_table(const coupling::RunResult &run, const ComparedRun &othe
 
 std::vector<Section> sections_of(const Result &result, const ComparedRun &other)
 {
-  Section section{"compared-run", "The run beside that of " + other.scene, "Runs compared", Section::Place::results};
-  section.parts.push_back(
-      Section::Sentences{"Largest and smallest values beside " + other.scene + ", and signals over the time."});
+  Section section{"compared-run", "Comparison with the run of " + other.scene, "Runs compared",
+                  Section::Place::results};
+  section.parts.push_back(Section::Sentences{"Extremes and signals compared with " + other.scene + "."});
   section.parts.push_back(extremes_table(*result.run, other));
   for (Section::Drawing &chart : overlay_charts(result.scene, *result.run, other))
     section.parts.push_back(std::move(chart));
@@ -162,21 +162,20 @@ std::vector<Section> sections_of(const Result &result, const ComparedRun &other)
 
 std::vector<Section> sections_of(const Result &result, const ComparedShapes &shapes)
 {
-  Section                         section{"compared-modes", "Modes beside those of " + shapes.b.scene, "Modes compared",
+  Section section{"compared-modes", "Comparison with the modes of " + shapes.b.scene, "Modes compared",
                   Section::Place::frequencies};
   const coupling::ModeComparison &match = shapes.match;
   section.parts.push_back(Section::Sentences{
-      "Modes of " + shapes.a.scene + " and, as other, of " + shapes.b.scene + ", matched by " +
+      "Modes of " + shapes.a.scene + " and, listed as other, of " + shapes.b.scene + ", matched by " +
       count_text(shapes.measures.size(), "shared measure") +
-      ", each weighed with its apparent mass. Seen is the part of a mode's kinetic energy that these tell; a mode that "
-      "hardly shows in them has no partner." +
+      ", weighted with their apparent masses. Observability is the share of a mode's kinetic energy in these measures; "
+      "a mode with low observability has no match." +
       (std::max(match.seen_a.maxCoeff(), match.seen_b.maxCoeff()) > 1.0005
-           ? " Modes are fewer than what moves: seen is a weight then, which may exceed 100 %, and no part of the "
-             "kinetic energy."
+           ? " The modes do not span all motions of the measures, so observability is a weight that may exceed 100 %."
            : "")});
   section.parts.push_back(pairs_table(shapes));
   const std::size_t pairs = match.pairs.size();
-  section.parts.push_back(Section::Sentences{"without a partner: " + std::to_string(shapes.a.modes.size() - pairs) +
+  section.parts.push_back(Section::Sentences{"modes without a match: " + std::to_string(shapes.a.modes.size() - pairs) +
                                              " of the first, " + std::to_string(shapes.b.modes.size() - pairs) +
                                              " of the other"});
   if (const std::string svg = shape_pairs_svg(shapes, angle_arm(result)); !svg.empty())

@@ -42,8 +42,8 @@ void require_shared_signal(Session &session, Session &other)
   };
   if (std::none_of(a.begin(), a.end(), in_b))
     throw std::invalid_argument("--compare: \"" + session.scene().name + "\" and \"" + other.scene().name +
-                                "\" have no signal of one name and unit; the first has " + names_of(a) +
-                                ", the second " + names_of(b) + ": name them alike in [output.signals]");
+                                "\" have no signal of the same name and unit; the first has " + names_of(a) +
+                                ", the second " + names_of(b) + "; use the same names in [output.signals]");
 }
 
 std::string window_text(const coupling::RunResult &run)
@@ -116,8 +116,8 @@ void add_compared_run(Session &session, Result &result, Session &other)
   Result of_other = run_with(analyses_of("run"), other);
   add_warnings(of_other, result);
   if (result.run && result.run->from != of_other.run->from)
-    result.warnings.push_back("the extremes compared are of different windows: output.from of " + result.scene +
-                              " is " + window_text(*result.run) + ", that of " + of_other.scene + " " +
+    result.warnings.push_back("extremes are compared over different windows: output.from of " + result.scene + " is " +
+                              window_text(*result.run) + ", that of " + of_other.scene + " " +
                               window_text(*of_other.run));
   auto shapes = compared_shapes(result, at_modes(session), of_other, at_modes(other));
   result.answers.push_back(compared_run_answer(compared_run(*result.run, of_other.scene, std::move(*of_other.run))));
@@ -150,9 +150,9 @@ AnalysisEntry compare_run_analysis()
        {"compared_history.csv", "signals of the other run over time", content_of<ComparedRun, compared_history_csv>}},
       []
       {
-        return std::make_unique<Compare>("another scene, run without --set: its signals in the same charts, its "
-                                         "extremes and modes in the same tables",
-                                         require_comparable_runs, add_compared_run);
+        return std::make_unique<Compare>(
+            "scene to compare with, run without --set: the charts and tables also show its signals, extremes and modes",
+            require_comparable_runs, add_compared_run);
       },
       [] { return as_answer(ComparedRun()); },
       "run"};
@@ -169,7 +169,7 @@ AnalysisEntry compare_modes_analysis()
           []
           {
             return std::make_unique<Compare>(
-                "another scene, whose modes are matched with these by measures of the same name",
+                "scene to compare with: its modes are matched by measures of the same name",
                 [](Session &, Session &) {}, add_compared_modes);
           },
           [] { return as_answer(ComparedShapes()); },

@@ -143,7 +143,8 @@ std::string shape_pairs_svg(const ComparedShapes &shapes, double arm)
     svg += panel_svg(shapes, pairs[i], measures, left + (panel_width + gap) * double(i % columns), upper);
   }
   return svg +
-         svg_text(10., height - 6., "largest amplitude of each shape 1; angles times " + short_text(arm) + " m",
+         svg_text(10., height - 6.,
+                  "each shape scaled to a largest amplitude of 1; angles multiplied by " + short_text(arm) + " m",
                   "small") +
          "</svg>\n";
 }

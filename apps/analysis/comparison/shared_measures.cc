@@ -172,10 +172,9 @@ std::optional<ComparedShapes> compared_shapes(const Result &a, const MachineAt &
 std::string nothing_shared(const Result &a, const MachineAt &at_a, const Result &b, const MachineAt &at_b)
 {
   return "--compare: \"" + a.scene + "\" and \"" + b.scene +
-         "\" share no motion of a body, an interface or an element by name, so that their modes cannot be matched; the "
-         "first has " +
+         "\" have no body, interface or element of the same name, so their modes cannot be matched; the first has " +
          some_of(told_by(at_a).motions) + ", the second " + some_of(told_by(at_b).motions) +
-         ": give what is the same the same name";
+         "; use the same name for corresponding objects";
 }
 
 } // namespace gestell::apps

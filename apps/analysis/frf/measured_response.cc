@@ -112,7 +112,7 @@ std::vector<ReadCurve> of_table(const std::string &name)
   {
     const bool parts = columns.re >= 0 && columns.im >= 0;
     if (!parts && columns.amplitude < 0)
-      throw std::invalid_argument(place + "of \"re\" and \"im\" one is missing" +
+      throw std::invalid_argument(place + "column \"re\" or \"im\" is missing" +
                                   (columns.name.empty() ? "" : " for \"" + columns.name + "\""));
     Columns own = columns;
     own.re      = parts ? columns.re : -1;
@@ -190,7 +190,7 @@ void convert(ReadCurve &read, const ResponsePair &pair)
     reached[2] -= times;
     constexpr int highest_derivative = 2; // from displacement to acceleration
     if (!equal(reached, wanted.dimension) || std::abs(times) > highest_derivative)
-      throw std::invalid_argument(read.place + "the unit [" + read.unit + "] is none of " + pair.name() +
+      throw std::invalid_argument(read.place + "the unit [" + read.unit + "] does not match " + pair.name() +
                                   ", which is in [" + pair.unit + "]");
     factor = own.value / wanted.value;
   }
@@ -205,7 +205,7 @@ void convert(ReadCurve &read, const ResponsePair &pair)
     curve.values[i] *= factor * std::pow(Complex(0., two_pi * curve.frequencies_hz[i]), times);
     if (!std::isfinite(curve.values[i].real()) || !std::isfinite(curve.values[i].imag()))
       throw std::invalid_argument(read.place + "the value at " + rounded(curve.frequencies_hz[i]) +
-                                  " Hz is beyond all numbers in [" + pair.unit + "]; check it and its unit");
+                                  " Hz overflows in [" + pair.unit + "]; check the value and its unit");
   }
 }
 
@@ -245,15 +245,16 @@ std::vector<MeasuredResponse> measured_responses(const std::vector<std::string> 
     const auto [named, file]      = requested(text, response);
     std::vector<ReadCurve> curves = curves_of(file);
     if (named >= 0 && curves.size() > 1)
-      throw std::invalid_argument("--measured " + text + ": the file holds " + std::to_string(curves.size()) +
-                                  " curves; give it without a pair, they are taken in their order");
+      throw std::invalid_argument("--measured " + text + ": the file contains " + std::to_string(curves.size()) +
+                                  " curves; omit the pair to assign them in order");
     for (ReadCurve &read : curves)
     {
       const int own   = named >= 0 ? named : pair_of(read.curve.name, response);
       read.curve.pair = own >= 0 ? own : next++;
       if (read.curve.pair >= int(response.pairs.size()))
-        throw std::invalid_argument(read.place + "is one curve too many: --from and --to ask for " +
-                                    std::to_string(response.pairs.size()) + "; name its pair by --measured PAIR=FILE");
+        throw std::invalid_argument(read.place + "is an extra curve: the number of pairs of --from and --to is " +
+                                    std::to_string(response.pairs.size()) +
+                                    "; select a pair with --measured PAIR=FILE");
       read.curve.pair_name = response.pairs[std::size_t(read.curve.pair)].name();
       convert(read, response.pairs[std::size_t(read.curve.pair)]);
       measured.push_back(read.curve);

@@ -43,7 +43,7 @@ coupling::InitialState operating_state(const Scene &scene, coupling::Machine &ma
     catch (const std::invalid_argument &error)
     {
       throw std::invalid_argument("--at equilibrium: " + std::string(error.what()) +
-                                  "; [modes] at = {...} gives what is held there, or take --at start");
+                                  "; fix coordinates with [modes] at = {...}, or use --at start");
     }
   return known.state;
 }
@@ -132,9 +132,9 @@ std::vector<double> asked_frequencies(const FrfOptions &options, const std::vect
 /// "a vibration of 3.2 Hz that grows with 0.5 1/s (damping ratio -0.02)"
 std::string growth_text(const std::complex<double> &s)
 {
-  const std::string rate = " grows with " + short_text(s.real()) + " 1/s";
+  const std::string rate = " grows at " + short_text(s.real()) + " 1/s";
   if (s.imag() == 0.)
-    return "a departure that" + rate;
+    return "a non-oscillating motion that" + rate;
   return "a vibration of " + short_text(s.imag() / two_pi) + " Hz that" + rate + " (damping ratio " +
          short_text(-s.real() / std::abs(s)) + ")";
 }
@@ -145,8 +145,8 @@ void warn_of_growth(const coupling::LinearResponse &linear, bool moves, std::vec
   const auto growing = linear.growing();
   if (!growing)
   {
-    warnings.push_back("whether the machine is stable at this operating point is not known: it has too many "
-                       "coordinates for its eigenvalues; a frequency response is reached in time only if it is");
+    warnings.push_back("stability at this operating point is unknown, because the machine has too many DOFs to compute "
+                       "its eigenvalues; the steady-state response exists only if the machine is stable");
     return;
   }
   if (growing->empty())
@@ -159,7 +159,7 @@ void warn_of_growth(const coupling::LinearResponse &linear, bool moves, std::vec
     text += " and " + std::to_string(growing->size() - most_listed) + " more";
   const std::string where = moves ? "at this instant of its motion" : "at this operating point";
   warnings.push_back("the machine linearised " + where + " is unstable: " + text +
-                     "; the response computed is never reached in time");
+                     "; the computed steady-state response is never reached");
 }
 
 } // namespace
@@ -171,7 +171,7 @@ void check_frf_options(const FrfOptions &options)
   require_choice("--spacing", options.spacing, {"log", "linear"});
   constexpr int most_points = 1000000; // 16 MB for each pair; no chart or file is read so finely
   if (options.points < 2 || options.points > most_points)
-    throw std::invalid_argument("--points is " + std::to_string(options.points) + "; it needs 2 to " +
+    throw std::invalid_argument("--points is " + std::to_string(options.points) + "; it must be from 2 to " +
                                 std::to_string(most_points));
   for (const auto &[option, names] : {std::pair("--from", &options.from), {"--to", &options.to}})
     if (names->empty())
@@ -223,11 +223,12 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
   for (const std::string &name : point.touching)
   {
     const bool closed = std::find(point.closed.begin(), point.closed.end(), name) != point.closed.end();
-    warnings.push_back("\"" + name +
-                       "\" just touches at the operating point, where its force has a kink: the response " +
-                       "is that with it " + (closed ? "closed" : "open") +
-                       ", which no real motion keeps to; give it a play above zero, a load that closes it, or another "
-                       "--at");
+    warnings.push_back("contact \"" + name +
+                       "\" just touches at the operating point, where its force has a kink; the response is computed "
+                       "with the contact " +
+                       (closed ? "closed" : "open") +
+                       ", although real vibration opens and closes it; set a clearance above zero, add a load that "
+                       "closes it, or choose another --at");
   }
   const coupling::ReducedFrame *frame = machine.model().reduced_frame();
   FrequencyResponse             response;
@@ -261,16 +262,15 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
   response.not_condensed = sweep.not_condensed();
   response.measured      = measured_responses(options.measured, response);
   if (prepared.in_modes)
-    warnings.push_back("the frequency response is that of the machine with all its " + std::to_string(machine.size()) +
-                       " coordinates; runs move in " + std::to_string(prepared.machine.size()) + " modes of it");
+    warnings.push_back("the frequency response uses all " + std::to_string(machine.size()) +
+                       " DOFs of the machine; runs use " + std::to_string(prepared.machine.size()) + " of its modes");
   else if (prepared.companion)
-    warnings.push_back("the frequency response is that of the machine on its reduced frame, with " +
-                       std::to_string(machine.size()) + " coordinates; the unreduced frame has " +
-                       std::to_string(prepared.machine.size()));
+    warnings.push_back("the frequency response uses the reduced frame with " + std::to_string(machine.size()) +
+                       " DOFs; the unreduced model has " + std::to_string(prepared.machine.size()));
   if (!std::isnan(limit) && response.frequencies_hz.back() > limit)
-    warnings.push_back("frequencies above " + short_text(limit) +
-                       " Hz are beyond what the reduced frame is meant for; raise reduction.frequency or keep "
-                       "more modes");
+    warnings.push_back(
+        "frequencies above " + short_text(limit) +
+        " Hz exceed the frequency limit of the reduced frame; raise reduction.frequency or retain more modes");
   return response;
 }
 

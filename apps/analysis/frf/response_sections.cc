@@ -154,12 +154,12 @@ Chart phase_chart(const FrequencyResponse &response, const std::vector<std::size
 
 HtmlTable peaks_of_pairs(const FrequencyResponse &response)
 {
-  HtmlTable table({"answer / force", "#peak at [Hz]", "#amplitude", "#damping ratio by half-power width"});
+  HtmlTable table({"response / force", "#peak frequency [Hz]", "#amplitude", "#damping ratio (half-power bandwidth)"});
   for (const ResponsePair &pair : response.pairs)
   {
     const std::string name = pair.name() + " [" + pair.unit + "]";
     if (pair.peaks.empty())
-      table.add({name, "none in this band", "", ""});
+      table.add({name, "no peak in this band", "", ""});
     for (const coupling::ResponsePeak &peak : pair.peaks)
       table.add({name, short_text(peak.frequency_hz, 7),
                  std::isfinite(peak.amplitude) ? short_text(peak.amplitude, 5) : "infinite",
@@ -171,13 +171,13 @@ HtmlTable peaks_of_pairs(const FrequencyResponse &response)
 std::string operating_point_text(const FrequencyResponse &response)
 {
   std::string text = "The " + response.kind + " of the machine linearised " +
-                     (response.at == "start"         ? "at the start of the scene"
-                      : response.at == "equilibrium" ? "in equilibrium"
-                                                     : "in the position of its modes") +
+                     (response.at == "start"         ? "in the initial state"
+                      : response.at == "equilibrium" ? "in static equilibrium"
+                                                     : "in the undeformed configuration") +
                      (response.moves ? ", in motion" : ", at rest");
   for (const auto &[state, names] : {std::pair("closed", &response.closed_contacts), {"open", &response.open_contacts}})
     if (!names->empty())
-      text += std::string("; ") + state + ": " + listed(*names);
+      text += std::string("; ") + state + " contacts: " + listed(*names);
   return text;
 }
 
@@ -189,8 +189,8 @@ std::vector<Section> sections_of(const Result &, const FrequencyResponse &respon
   section.parts.push_back(Section::Sentences{operating_point_text(response)});
   section.parts.push_back(peaks_of_pairs(response));
   if (!response.not_condensed.empty())
-    section.parts.push_back(
-        Section::Sentences{"Every frequency took the whole equations: " + response.not_condensed + ".", true, true});
+    section.parts.push_back(Section::Sentences{
+        "All frequencies were solved with the full equations: " + response.not_condensed + ".", true, true});
   int number = 0;
   for (const std::vector<std::size_t> &group : chart_groups(response))
   {
@@ -198,7 +198,7 @@ std::vector<Section> sections_of(const Result &, const FrequencyResponse &respon
     section.parts.push_back(Section::Drawing{"frf-amplitude" + ending, amplitude_chart(response, group)});
     section.parts.push_back(Section::Drawing{"frf-phase" + ending, phase_chart(response, group)});
   }
-  section.parts.push_back(Section::Sentences{"Rings: peaks.", true, true});
+  section.parts.push_back(Section::Sentences{"Rings mark peaks.", true, true});
   return {section};
 }
 
@@ -206,7 +206,7 @@ Headline headline_of(const FrequencyResponse &response)
 {
   Headline headline{"The " + response.kind + " from " + short_text(response.frequencies_hz.front()) + " to " +
                     short_text(response.frequencies_hz.back()) + " Hz: peaks of " +
-                    count_text(response.pairs.size(), "pair") + " of places."};
+                    count_text(response.pairs.size(), "pair") + " of force and response."};
   constexpr std::size_t most_pairs = 4; // a row; the table has all
   for (const ResponsePair &pair : response.pairs)
   {

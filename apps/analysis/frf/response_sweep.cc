@@ -181,7 +181,7 @@ void ResponseSweep::run(const std::vector<double> &requested, const std::vector<
   }
   if (driven > 0)
     warnings.push_back("at " + count_text(driven, "frequency", "frequencies") +
-                       " the machine has an undamped mode, so that no vibration is finite there: nan; give it damping");
+                       " the machine has an undamped mode, so the response is infinite (listed as nan); add damping");
 }
 
 } // namespace gestell::apps

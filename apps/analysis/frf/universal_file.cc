@@ -44,7 +44,7 @@ std::vector<DataSet> data_sets(const std::string &file)
     if (line.find('\0') != std::string::npos)
       throw std::invalid_argument(
           file + ":" + std::to_string(number) +
-          ": holds a zero byte; only universal files in ASCII are read, write the file as such");
+          ": contains a zero byte; only ASCII universal files can be read, so export the file in ASCII");
     const std::string text = trimmed(line);
     if (text == "-1")
     {
@@ -87,7 +87,7 @@ std::vector<double> numbers(const DataSet &set, std::size_t first, std::size_t l
       found.push_back(value);
     }
     if (!trimmed(std::string(at)).empty())
-      set.refuse(i, "got '" + trimmed(std::string(at)).substr(0, 20) + "', where a number is needed");
+      set.refuse(i, "got '" + trimmed(std::string(at)).substr(0, 20) + "'; a number is needed");
   }
   return found;
 }
@@ -114,7 +114,7 @@ UniversalFunction function_of(const DataSet &set)
 {
   constexpr int n_head = 11; // records before the numbers
   if (set.records.size() <= n_head)
-    set.refuse(set.records.size(), "ends before its numbers; it needs eleven lines of head");
+    set.refuse(set.records.size(), "ends before its numbers; it needs eleven header lines");
   const std::vector<double> form = numbers(set, 6, 7);
   if (form.size() < 5)
     set.refuse(6, "needs data type, number of points, spacing, first abscissa and its increment");
@@ -158,14 +158,14 @@ std::vector<UniversalFunction> read_universal_functions(const std::string &file)
   constexpr int                  si_units = 1; // data set 164, record 1: SI
   for (const DataSet &set : data_sets(file))
     if (set.kind == "58b")
-      set.refuse(0, "is binary; write the file in ASCII");
+      set.refuse(0, "is binary; export the file in ASCII");
     else if (set.kind == "164" && !set.records.empty() && first_number(set, 0) != si_units)
       set.refuse(0,
-                 "the units are of code " + std::to_string(first_number(set, 0)) + "; write the file in SI (code 1)");
+                 "the unit code is " + std::to_string(first_number(set, 0)) + "; export the file in SI units (code 1)");
     else if (set.kind == "58")
       functions.push_back(function_of(set));
   if (functions.empty())
-    throw std::invalid_argument(file + ": holds no data set 58, which frequency responses are written as");
+    throw std::invalid_argument(file + ": contains no data set 58 (frequency response functions)");
   return functions;
 }
 

@@ -53,9 +53,9 @@ PlaneSide side_of(const coupling::Machine &machine, const std::string &text)
   side.name = trimmed(text.substr(0, from));
   if (side.name.empty() || (from == std::string::npos) != (to == std::string::npos) || to < from)
     throw std::invalid_argument("--basins: \"" + trimmed(text) +
-                                "\" is no side of a plane; give a coordinate, such as " + "\"" +
+                                "\" is not an axis of the plane; name a coordinate, such as \"" +
                                 machine.coordinate_name(0) + "\", its rate \"" + machine.coordinate_name(0) +
-                                "'\", or one with its ends, \"" + machine.coordinate_name(0) + " from -1 to 1\"");
+                                "'\", or one with its range, \"" + machine.coordinate_name(0) + " from -1 to 1\"");
   const bool        is_rate    = side.name.back() == '\'';
   const std::string coordinate = is_rate ? side.name.substr(0, side.name.size() - 1) : side.name;
   try
@@ -73,8 +73,7 @@ PlaneSide side_of(const coupling::Machine &machine, const std::string &text)
   side.ends.emplace(end_value(trimmed(text.substr(from + 6, to - from - 6)), is_rate),
                     end_value(trimmed(text.substr(to + 4)), is_rate));
   if (!(side.ends->second > side.ends->first))
-    throw std::invalid_argument("--basins: \"" + trimmed(text) +
-                                "\" ends where it begins or before; the larger value " + "comes second");
+    throw std::invalid_argument("--basins: \"" + trimmed(text) + "\" is an empty range; give the smaller value first");
   return side;
 }
 
@@ -82,12 +81,12 @@ std::pair<PlaneSide, PlaneSide> sides_of(const coupling::Machine &machine, const
 {
   const auto comma = text.find(',');
   if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos)
-    throw std::invalid_argument("--basins \"" + text + "\": a plane has two sides, such as \"" +
+    throw std::invalid_argument("--basins \"" + text + "\": a plane has two axes, such as \"" +
                                 machine.coordinate_name(0) + ", " + machine.coordinate_name(0) + "'\"");
   const std::pair<PlaneSide, PlaneSide> sides = {side_of(machine, text.substr(0, comma)),
                                                  side_of(machine, text.substr(comma + 1))};
   if (sides.first.index == sides.second.index)
-    throw std::invalid_argument("--basins \"" + text + "\": the two sides are the same");
+    throw std::invalid_argument("--basins \"" + text + "\": the two axes are the same; name two different ones");
   return sides;
 }
 
@@ -123,7 +122,7 @@ std::pair<double, double> ends_of(const PlaneSide &side, const std::pair<VectorX
   constexpr double excursions = 2.; // extent of the plane in both directions, in excursions of the motions
   const double     middle = 0.5 * (low + high), reach = 0.5 * excursions * (high - low);
   if (!(reach > 0.))
-    throw std::invalid_argument("--basins: " + side.name + " does not move in the motions found; give its ends, \"" +
+    throw std::invalid_argument("--basins: " + side.name + " is constant in the solutions found; give a range, \"" +
                                 side.name + " from ... to ...\"");
   return {middle - reach, middle + reach};
 }
@@ -138,16 +137,17 @@ void check_basins(const coupling::Machine &machine, const coupling::PeriodicProb
   sides_of(machine, request.basins);
   constexpr double bytes_of_start = 8.; // the motion it settles to, and after how many periods
   fem::require_available("--basin-points " + std::to_string(request.basin_points) +
-                             ": the plane of that many starts a side",
-                         bytes_of_start * request.basin_points * double(request.basin_points), "Ask for fewer.");
+                             ": a plane with this number of initial states per axis",
+                         bytes_of_start * request.basin_points * double(request.basin_points), "Use fewer points.");
   if (!request.along.empty())
-    throw std::invalid_argument("--basins belong to one machine; with --along there are many: leave one of them out");
+    throw std::invalid_argument("--basins applies to one machine, but --along varies it; omit one of the two options");
   if (coupling::has_joints(machine))
-    throw std::invalid_argument("--basins: starts that differ in single coordinates would open the ideal joints of the "
-                                "machine; settle from starts of your own, [start] closes the joints");
+    throw std::invalid_argument(
+        "--basins: initial states that differ in single coordinates violate the ideal joints of the machine; instead "
+        "compute solutions from several [start] tables, which assemble the joints");
   if (problem.period_is_unknown())
-    throw std::invalid_argument("--basins: the period is unknown, so starts differ in their phase alone; they are of "
-                                "machines whose loads tell the period");
+    throw std::invalid_argument("--basins: the period is unknown, and initial states would differ in phase only; "
+                                "basins need a load or drive with a known period");
 }
 
 coupling::StartPlane start_plane(const coupling::Machine &machine, const coupling::PeriodicProblem &problem,
@@ -172,7 +172,7 @@ void find_basins(const coupling::Machine &machine, const coupling::PeriodicProbl
     return;
   if (std::none_of(solutions.begin(), solutions.end(), [](const auto &solution) { return solution.stable(); }))
   {
-    found.notes.push_back("there are no basins: none of the motions found is stable");
+    found.notes.push_back("no basins of attraction: none of the solutions found is stable");
     return;
   }
   BasinMap map;

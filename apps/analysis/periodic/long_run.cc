@@ -173,13 +173,12 @@ void settle_failure(const PeriodicProblem &problem, const coupling::PeriodicOpti
   if (motion.is_recognised() || lasts(solutions))
   {
     if (!by_method.empty())
-      found.notes.push_back("the method found no motion (" + by_method +
-                            "); what stands here is where the long run led" +
-                            (solutions.empty() ? "" : ", closed by shooting"));
+      found.notes.push_back("the method found no solution (" + by_method + "); the result is the limit of a long run" +
+                            (solutions.empty() ? "" : ", refined by shooting"));
     found.failure.clear();
   }
   if (!failure.empty())
-    found.notes.push_back("the motion that it comes back to: " + failure);
+    found.notes.push_back("no periodic solution was found at the end of the long run: " + failure);
 }
 
 } // namespace
@@ -187,10 +186,11 @@ void settle_failure(const PeriodicProblem &problem, const coupling::PeriodicOpti
 void check_long_run(const PeriodicRequest &request)
 {
   if (request.section > 0 && !request.along.empty())
-    throw std::invalid_argument("--section is of one motion; with --along there are many: leave one of them out");
+    throw std::invalid_argument(
+        "--section applies to one solution, but --along computes many; omit one of the two options");
   if (request.section > 0 && request.section < coupling::least_section)
-    throw std::invalid_argument("--section " + std::to_string(request.section) + ": so few periods tell too little; " +
-                                "take at least " + std::to_string(coupling::least_section));
+    throw std::invalid_argument("--section " + std::to_string(request.section) + ": too few periods; use at least " +
+                                std::to_string(coupling::least_section));
 }
 
 void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem, const coupling::PeriodicGuess &start,
@@ -204,13 +204,13 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
   if (!is_wanted(problem, request, solutions, found))
   {
     if (all_unstable(solutions) && request.along.empty())
-      found.notes.push_back("no motion that lasts was found; --section " + std::to_string(usual_periods) +
-                            " tells what the machine does instead");
+      found.notes.push_back("no stable solution was found; --section " + std::to_string(usual_periods) +
+                            " computes the long-term behaviour");
     return;
   }
   if (const std::string why = coupling::why_not_propagated(machine, "settling"); !why.empty())
   {
-    found.notes.push_back("what the motion does in the long run is not told; it needs tangents: " +
+    found.notes.push_back("the long-term behaviour was not computed, because it needs tangents: " +
                           why.substr(0, why.find("; --method")));
     return;
   }
@@ -226,7 +226,7 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
   }
   catch (const std::runtime_error &none)
   {
-    found.notes.push_back(std::string("what the motion does in the long run is not told: ") + none.what());
+    found.notes.push_back(std::string("the long-term behaviour was not computed: ") + none.what());
     return;
   }
   found.work.add(run.motion.work);

@@ -25,7 +25,7 @@ void describe_answer(Visitor &v, const PeriodicResult &x)
 
 std::string subject_of(const PeriodicResult &)
 {
-  return "Periodic motions";
+  return "Periodic solutions";
 }
 
 namespace
@@ -68,15 +68,15 @@ std::string stability_of(const coupling::PeriodicSolution &solution)
 {
   return !solution.stability_is_known() ? "unknown"
          : solution.stable()            ? "stable"
-         : solution.verification.leaves ? "left by a run"
+         : solution.verification.leaves ? "unstable in a run"
                                         : "unstable";
 }
 
 HtmlTable solutions_table(const PeriodicResult &result)
 {
-  std::vector<std::string> heads{"#no.", "motion", "#period [s]", "stability", "#largest multiplier", "#residual"};
-  heads.insert(heads.end(), {"#departure in " + std::to_string(coupling::verified_periods) + " periods",
-                             "#of starts [%]", "found by"});
+  std::vector<std::string> heads{"#no.", "kind", "#period [s]", "stability", "#largest multiplier", "#residual"};
+  heads.insert(heads.end(), {"#deviation after " + std::to_string(coupling::verified_periods) + " periods",
+                             "#share of initial states [%]", "method"});
   if (!result.parameter.empty())
     heads.insert(heads.begin() + 1, "#" + parameter_head(result));
   HtmlTable   table(heads);
@@ -101,7 +101,7 @@ HtmlTable solutions_table(const PeriodicResult &result)
     table.add(row);
   }
   if (number > most_rows)
-    table.add_note("... " + std::to_string(result.entries.size()) + " in all, in solutions.csv");
+    table.add_note("... " + std::to_string(result.entries.size()) + " in total, see solutions.csv");
   return table;
 }
 
@@ -145,7 +145,7 @@ HtmlTable checks_table(const PeriodicResult &result)
 
 std::vector<Section> sections_of(const Result &, const PeriodicResult &periodic)
 {
-  Section    section{"periodic", "Periodic motions", "Periodic motions", Section::Place::first};
+  Section    section{"periodic", "Periodic solutions", "Periodic solutions", Section::Place::first};
   const auto draw = [&](const std::string &name, const Chart &chart) {
     section.parts.push_back(Section::Drawing{name, chart, ChartLink::none, Section::Drawing::Shown::picture});
   };

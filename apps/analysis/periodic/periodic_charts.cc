@@ -169,7 +169,7 @@ Chart multiplier_chart(const std::vector<PeriodicEntry> &entries, std::size_t mo
   Chart chart;
   square_plane(chart);
   chart.title   = "Floquet multipliers";
-  chart.note    = "inside the circle a disturbance dies away";
+  chart.note    = "inside the circle disturbances decay";
   chart.x.label = "real part";
   chart.y.label = "imaginary part";
   Curve circle;
@@ -202,11 +202,11 @@ Chart harmonics_chart(const PeriodicEntry &entry, std::size_t number)
   const std::vector<std::size_t> barred = most_different(entry.signals);
   Chart                          chart;
   chart.title                       = "Harmonics of solution " + std::to_string(number);
-  chart.note                        = "amplitudes, each signal against its largest one";
+  chart.note                        = "amplitudes relative to the largest one of each signal";
   chart.width                       = 480.;
   chart.height                      = 320.;
-  chart.x.label                     = "multiple of the drive's frequency";
-  chart.y.label                     = "share of the largest";
+  chart.x.label                     = "multiple of the excitation frequency";
+  chart.y.label                     = "relative amplitude";
   chart.x.begin                     = 0.5;
   chart.y.begin                     = 0.;
   chart.y.end                       = 1.05;
@@ -247,7 +247,7 @@ Chart phase_plane_chart(const PhasePlane &plane)
 {
   Chart chart = plane_of(plane);
   chart.title = plane.name + ", phase plane";
-  chart.note  = "unstable motions dashed; discs: a period begins";
+  chart.note  = "dashed: unstable; discs: start of a period";
   for (const PhasePlane::Curve &motion : plane.curves)
   {
     Curve curve;
@@ -280,11 +280,10 @@ Chart basins_chart(const BasinMap &map)
   const coupling::Basins     &basins = map.basins;
   const coupling::StartPlane &plane  = basins.plane;
   Chart                       chart;
-  chart.title         = "Basins of the stable motions";
-  chart.note          = basins.share(coupling::Basins::not_reached) > 0.
-                            ? "white: none of them; discs: where they begin a period"
-                            : "discs: where they begin a period";
-  chart.width         = 640.;
+  chart.title = "Basins of attraction of the stable solutions";
+  chart.note  = basins.share(coupling::Basins::not_reached) > 0. ? "white: no stable solution; discs: start of a period"
+                                                                 : "discs: start of a period";
+  chart.width = 640.;
   chart.height        = 520.;
   chart.x.label       = map.x_name;
   chart.y.label       = map.y_name;
@@ -325,8 +324,8 @@ Chart response_chart(const PeriodicResult &result, std::size_t signal)
 {
   const SignalOrbit &of    = result.entries.front().signals[signal];
   Chart              chart = over_parameter(result, of);
-  chart.title              = of.name + " of the periodic motions";
-  chart.note               = "largest and smallest value; unstable motions dashed; rings: special points";
+  chart.title              = of.name + " of the periodic solutions";
+  chart.note               = "largest and smallest value; dashed: unstable; rings: special points";
   for (const bool largest : {true, false})
     for (const bool stable : {true, false})
     {
@@ -346,9 +345,9 @@ Chart amplitude_chart(const PeriodicResult &result, std::size_t signal)
   const auto         a1    = [&](const PeriodicEntry &at) { return at.signals[signal].amplitude.at(0); };
   const SignalOrbit &of    = result.entries.front().signals[signal];
   Chart              chart = over_parameter(result, of);
-  chart.title              = of.name + ", first harmonic of the drive";
-  chart.note               = "amplitude; unstable motions dashed; rings: special points" +
-               std::string(result.backbone.empty() ? "" : "; dotted: free vibration, by describing functions");
+  chart.title              = of.name + ", first harmonic of the excitation";
+  chart.note               = "amplitude; dashed: unstable; rings: special points" +
+               std::string(result.backbone.empty() ? "" : "; dotted: free vibration by describing functions");
   for (const bool stable : {true, false})
   {
     Curve curve = branch_curve(result, stable, a1);

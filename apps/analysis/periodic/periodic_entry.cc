@@ -95,8 +95,8 @@ void check_options(const PeriodicRequest &request, const coupling::PeriodicMetho
   if (const std::string none = coupling::why_no_branch(method); !request.along.empty() && !none.empty())
     throw std::invalid_argument("--along: " + none);
   if (request.check == method.name())
-    throw std::invalid_argument("--check " + method.name() + ": the motion is found by " + method.name() +
-                                " already, and would be compared with itself; name another method");
+    throw std::invalid_argument("--check " + method.name() + ": the solution is already computed by " + method.name() +
+                                "; choose another method for the check");
   const auto takes = [](const coupling::PeriodicMethod &by, const std::string &name)
   {
     const auto own = by.options();
@@ -116,15 +116,15 @@ void check_options(const PeriodicRequest &request, const coupling::PeriodicMetho
     }
     if (!(value >= option->least && value <= option->most) || (option->whole && value != std::floor(value)))
       throw std::invalid_argument("--" + name + " is " + short_text(value, 12) + "; it must be " +
-                                  (option->whole ? "a whole number" : "a number") + " from " +
+                                  (option->whole ? "an integer" : "a number") + " from " +
                                   short_text(option->least, 12) + " to " + short_text(option->most, 12));
     if (takes(method, name) || (check && !option->of_lead && takes(*check, name)))
       continue;
     const auto &methods = coupling::periodic_methods();
     const auto  serves =
         std::find_if(methods.begin(), methods.end(), [&](const auto *other) { return takes(*other, name); });
-    throw std::invalid_argument("--" + name + " does nothing here, as the motion is found by " + method.name() +
-                                "; add --method " + (*serves)->name() + ", or leave it out");
+    throw std::invalid_argument("--" + name + " has no effect with the method " + method.name() + "; add --method " +
+                                (*serves)->name() + ", or omit the option");
   }
 }
 
@@ -174,8 +174,7 @@ PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProbl
   constexpr double neutral = 1e-9; // distance of a multiplier from 1 that is none
   if (const double largest = solution.largest_multiplier(); std::abs(largest - 1.) <= neutral)
     entry.solution.notes.push_back(
-        "a multiplier is 1: a motion beside it stays there and comes neither nearer nor away, "
-        "as where friction holds what it has stopped");
+        "a multiplier is 1: nearby motions neither approach this solution nor leave it, as with sticking friction");
   rows = std::max(rows, coupling::power_of_two(4 * harmonics_told * solution.ratio));
   if (solution.series)
     trace_signals(machine, problem, solution, signals, rows, entry);
@@ -184,7 +183,7 @@ PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProbl
     coupling::RunResult run =
         orbit_run(machine, solution, signals, rows, run_of_it ? OrbitRun::pictures : OrbitRun::signals);
     if (!run.failure.empty())
-      throw coupling::ConvergenceFailure("the motion that was found cannot be traced: " + run.failure);
+      throw coupling::ConvergenceFailure("the solution cannot be integrated over its period: " + run.failure);
     entry.rows = signal_rows(run, signals.size());
     for (const coupling::SignalSummary &summary : run.signals)
     {

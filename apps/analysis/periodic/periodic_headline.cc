@@ -60,7 +60,7 @@ KeyNumber largest_of(const PeriodicResult &result, std::size_t signal)
   const PeriodicEntry &most = *std::max_element(result.entries.begin(), result.entries.end(), smaller);
   const SignalOrbit   &of   = most.signals[signal];
   return {quantity_text(std::abs(of.max) >= std::abs(of.min) ? of.max : of.min, of.unit),
-          of.name + ", largest" +
+          "largest " + of.name +
               (result.parameter.empty() ? "" : ", at " + with_unit_of_parameter(result, short_text(most.parameter)))};
 }
 
@@ -69,7 +69,7 @@ KeyNumber largest_of(const PeriodicResult &result, std::size_t signal)
 Headline headline_of(const PeriodicResult &result)
 {
   if (result.entries.empty())
-    return {"No periodic motion was found" + (result.failure.empty() ? std::string(".") : ": " + result.failure)};
+    return {"No periodic solution was found" + (result.failure.empty() ? std::string(".") : ": " + result.failure)};
   const auto count = [&](auto is)
   {
     return std::count_if(result.entries.begin(), result.entries.end(),
@@ -78,9 +78,9 @@ Headline headline_of(const PeriodicResult &result)
   const auto stable  = count([](const coupling::PeriodicSolution &s) { return s.stable(); });
   const auto unknown = count([](const coupling::PeriodicSolution &s) { return !s.stability_is_known(); });
   const auto others  = long(result.entries.size()) - stable - unknown;
-  Headline   headline{count_text(result.entries.size(), "periodic motion")};
+  Headline   headline{count_text(result.entries.size(), "periodic solution")};
   if (result.parameter.empty())
-    headline.sentence += ", the first with the period " + short_text(result.entries.front().solution.period, 6) + " s";
+    headline.sentence += "; the first has the period " + short_text(result.entries.front().solution.period, 6) + " s";
   else
   {
     const auto [low, high] =
@@ -92,7 +92,7 @@ Headline headline_of(const PeriodicResult &result)
   }
   headline.sentence +=
       ": " + std::to_string(stable) + " stable, " + std::to_string(others) + " unstable" +
-      (unknown > 0 ? ", of " + std::to_string(unknown) + " the stability is not known" : "") +
+      (unknown > 0 ? ", " + std::to_string(unknown) + " of unknown stability" : "") +
       (result.special_points.empty() ? "" : "; " + count_text(result.special_points.size(), "special point")) + ".";
   constexpr std::size_t           most_signals = 3; // each of another unit: a row of numbers
   const std::vector<SignalOrbit> &signals      = result.entries.front().signals;

@@ -70,11 +70,10 @@ void begin_branches(Session &session, const PeriodicRequest &request)
   if (request.along.empty())
     return;
   if (request.from.empty() || request.to.empty())
-    throw std::invalid_argument("--along " + request.along + ": needs its ends, --from and --to");
+    throw std::invalid_argument("--along " + request.along + ": --from and --to are missing");
   if (session.scene().reduction.superposition)
-    throw std::invalid_argument(
-        "--along: a branch follows coordinates, and the modes of method = \"modal\" change with " + request.along +
-        "; take reduction.method = \"craig-bampton\"");
+    throw std::invalid_argument("--along is not possible with reduction.method = \"modal\", whose modes change with " +
+                                request.along + "; use reduction.method = \"craig-bampton\"");
   require_parameter(session.variant(), request.along);
   session.vary(request.along + '=' + request.from);
 }
@@ -104,7 +103,7 @@ PeriodicResult periodic_motions(Session &session, const PeriodicRequest &request
   std::optional<SceneFamily> family;
   if (!request.along.empty())
     family.emplace(session.variant(), prepared, request, repeating.problem);
-  now("periodic motions", -1.);
+  now("periodic solutions", -1.);
   const coupling::PeriodicGuess &guess     = repeating.guess;
   auto                           solutions = searched(chosen, repeating.problem, guess, options, found);
   follow_long_run(machine, repeating.problem, guess, options, request, signals, solutions, found);

@@ -26,16 +26,16 @@ std::vector<double> numbers_of(const SignalOrbit &signal)
 std::string kind_text(const coupling::Recurrence &motion)
 {
   if (motion.kind == "periodic")
-    return "periodic: it repeats after one period of the excitation";
+    return "periodic: repeats after one period of the excitation";
   if (motion.kind == "sub-harmonic")
-    return "sub-harmonic: it repeats after " + std::to_string(motion.repeats) + " periods of the excitation";
+    return "sub-harmonic: repeats after " + std::to_string(motion.repeats) + " periods of the excitation";
   if (motion.kind == "quasi-periodic")
-    return "quasi-periodic: it beats and does not repeat; neighbouring trajectories stay bounded";
+    return "quasi-periodic: beating without repetition; nearby trajectories stay close";
   if (motion.kind == "drifting")
-    return "drifting: it moves away over these periods, as an unconstrained motion does";
+    return "drifting: moves away over these periods, like an unconstrained coordinate";
   if (motion.kind == "chaotic")
-    return "chaotic: it does not repeat; neighbouring trajectories diverge";
-  return "still settling: it comes ever nearer to a motion that repeats" +
+    return "chaotic: no repetition; nearby trajectories diverge";
+  return "still settling: converges to a motion that repeats" +
          (motion.repeats > 0 ? " after " + std::to_string(motion.repeats) + " period" + (motion.repeats > 1 ? "s" : "")
                              : std::string());
 }
@@ -172,20 +172,20 @@ CsvTable basins_csv(const PeriodicResult &result)
 std::string long_run_text(const LongRun &run)
 {
   const coupling::Recurrence &motion = run.motion;
-  return "in the long run (" + std::to_string(motion.periods) + " periods, after as many) the motion is " +
-         kind_text(motion) + "; largest Lyapunov exponent " + short_text(motion.exponent, 3) + " 1/s, standard error " +
-         short_text(motion.error, 2) + " 1/s";
+  return "long-term behaviour (" + std::to_string(motion.periods) +
+         " periods after an equally long transient): " + kind_text(motion) + "; largest Lyapunov exponent " +
+         short_text(motion.exponent, 3) + " 1/s, standard error " + short_text(motion.error, 2) + " 1/s";
 }
 
 std::string basins_text(const BasinMap &map)
 {
   const coupling::Basins &basins = map.basins;
-  std::string text = "basins over " + range_text(map.x_name, basins.plane.x_begin, basins.plane.x_end) + ", " +
-                     range_text(map.y_name, basins.plane.y_begin, basins.plane.y_end) + ":";
+  std::string text = "basins of attraction over " + range_text(map.x_name, basins.plane.x_begin, basins.plane.x_end) +
+                     ", " + range_text(map.y_name, basins.plane.y_begin, basins.plane.y_end) + ":";
   for (int number = 1; number <= basins.motion.maxCoeff(); ++number)
     if (const double share = basins.share(number); share > 0.)
-      text += " no. " + std::to_string(number) + " " + percent(share) + ",";
-  text += " none of the stable motions found " + percent(basins.share(coupling::Basins::not_reached));
+      text += " no. " + std::to_string(number) + ": " + percent(share) + ",";
+  text += " none of the stable solutions found: " + percent(basins.share(coupling::Basins::not_reached));
   return text + (basins.is_complete() ? "" : "; interrupted");
 }
 

@@ -46,12 +46,12 @@ const std::map<std::string, std::string> &without_effect()
 {
   static const std::map<std::string, std::string> tables = {{"name", "the name of the scene"},
                                                             {"description", "the description of the scene"},
-                                                            {"extends", "the scene that this one extends"},
-                                                            {"run", "how a run is integrated and how long it takes"},
-                                                            {"start", "the state from which motions are looked for"},
-                                                            {"modes", "which modes are listed, and where"},
-                                                            {"output", "what is written"},
-                                                            {"reduction", "how the frame is reduced"}};
+                                                            {"extends", "the scene that this scene extends"},
+                                                            {"run", "the integration and the duration of a run"},
+                                                            {"start", "the initial state of the search"},
+                                                            {"modes", "the listed modes and their configuration"},
+                                                            {"output", "the requested results"},
+                                                            {"reduction", "the reduction of the frame"}};
   return tables;
 }
 
@@ -69,10 +69,9 @@ void require_effect(const std::string &key)
   const auto found = without_effect().find(table_of(key));
   if (found == without_effect().end())
     return;
-  throw std::invalid_argument("--along " + key + ": this entry says " + found->second +
-                              "; it does not change the equations of motion, and all motions along it would be the "
-                              "same. Follow a parameter (parameters.NAME), or a number of an element, a load, a "
-                              "drive or a body, such as element.NAME.stiffness");
+  throw std::invalid_argument("--along " + key + ": this key sets " + found->second +
+                              ", which does not change the equations of motion. Choose a parameter (parameters.NAME), "
+                              "or a number of an element, a load, a drive or a body, such as element.NAME.stiffness");
 }
 
 } // namespace
@@ -96,25 +95,25 @@ SceneFamily::SceneFamily(Variant file, PreparedMachine &machine, const PeriodicR
     : file_(std::move(file)), key_(request.along), request_(request), like_(like)
 {
   if (request.from.empty() || request.to.empty())
-    throw std::invalid_argument("--along " + key_ + ": give its ends, --from and --to");
+    throw std::invalid_argument("--along " + key_ + ": --from and --to are missing");
   std::string other;
   from_ = split("--from", request.from, unit_);
   to_   = split("--to", request.to, other);
   if (unit_.empty())
     unit_ = other;
   if (!other.empty() && other != unit_)
-    throw std::invalid_argument("--from " + request.from + " and --to " + request.to + ": give both in one unit");
+    throw std::invalid_argument("--from " + request.from + " and --to " + request.to + ": use the same unit in both");
   if (from_ == to_)
-    throw std::invalid_argument("--from and --to are both " + request.from + "; there is no way between them");
+    throw std::invalid_argument("--from and --to are both " + request.from + "; the range is empty");
   const Scene first = scene_at(from_), last = last_scene();
   if (!on_reduced_frame(first))
     return;
   if (!same_frame(first, last))
-    throw std::invalid_argument("--along " + key_ +
-                                ": this entry changes the frame itself, which would be meshed and "
-                                "reduced anew at each of some hundred values; follow an entry of the "
-                                "mechanism, or compute single values with --set " +
-                                key_ + "=...");
+    throw std::invalid_argument(
+        "--along " + key_ +
+        ": this key changes the frame, which would have to be meshed and reduced again for each of about 100 values; "
+        "choose a key of the mechanism, or compute single values with --set " +
+        key_ + "=...");
   frame_ = std::make_shared<coupling::ReducedFrame>(without_pictures(*machine.machine.model().reduced_frame()));
 }
 
@@ -137,7 +136,7 @@ Scene SceneFamily::last_scene() const
     if (why.empty())
       throw;
     throw std::invalid_argument("--to " + request_.to + ": " + why +
-                                ", where the load no longer oscillates; let the branch end before");
+                                ", where the load no longer oscillates; end the branch before this value");
   }
 }
 

@@ -86,8 +86,8 @@ SensitivityResult differentiated(RunInProgress &in, PerturbedScenes &twins, cons
   if (run.interrupted)
   {
     found.interrupted = true;
-    result.warnings.push_back(
-        "interrupted: sensitivities are known of what lies before t = " + short_text(run.reached) + " s of the motion");
+    result.warnings.push_back("interrupted: sensitivities cover the motion up to t = " + short_text(run.reached) +
+                              " s");
   }
   for (SensitivityOutput &output : frequencies.outputs)
     found.outputs.push_back(std::move(output));
@@ -137,7 +137,7 @@ public:
     found.run_cpu_s         = double(begin - at_run_) / CLOCKS_PER_SEC;
     found.cpu_s             = double(before_ + std::clock() - begin) / CLOCKS_PER_SEC;
     if (!found.failure.empty())
-      run.result.warnings.push_back("the run has no sensitivities: " + found.failure);
+      run.result.warnings.push_back("sensitivities were not computed: " + found.failure);
     outcome_ = !found.failure.empty() ? AnalysisOutcome::failed
                : found.interrupted    ? AnalysisOutcome::interrupted
                                       : AnalysisOutcome::done;

@@ -54,7 +54,7 @@ Chart tornado(const SensitivityResult &found, const SensitivityOutput &output, c
 {
   const std::size_t n = std::min(keys.size(), most_bars);
   Chart             chart;
-  chart.title       = "1 % more changes " + output.output;
+  chart.title       = "Change of " + output.output + " for a 1 % increase";
   chart.note        = output.output + " = " + short_text(output.value, 5) + " " + output.unit;
   chart.width       = 460.;
   chart.height      = 70. + 18. * double(n);
@@ -112,9 +112,9 @@ std::vector<Section> sections_of(const Result &, const SensitivityResult &found)
   using Part = Section::Sentences;
   Section section{"sensitivities", "Sensitivities", "Sensitivities"};
   if (!found.failure.empty())
-    section.parts.push_back(Part{"There are none: " + found.failure, true});
+    section.parts.push_back(Part{"No sensitivities: " + found.failure, true});
   std::vector<Section::Part> charts;
-  const std::string          change = "1 % more of ... changes it by (+: away from zero)";
+  const std::string          change = "change for a 1 % increase of a parameter (+: larger magnitude)";
   HtmlTable                  peaks({"output", "#value", "unit", change}), others({"output", "#value", "unit", change});
   for (const SensitivityOutput &output : found.outputs)
   {
@@ -131,18 +131,19 @@ std::vector<Section> sections_of(const Result &, const SensitivityResult &found)
                                         Section::Drawing::Shown::picture});
   }
   if (!charts.empty())
-    section.parts.push_back(Part{"Derivatives are those of the equations of motion at this run; where an event changes "
-                                 "place with another, they end.",
-                                 true});
+    section.parts.push_back(Part{
+        "Derivatives of the equations of motion at this run. They are valid while the order of events does not change.",
+        true});
   section.parts.insert(section.parts.end(), charts.begin(), charts.end());
   if (peaks.is_empty() && others.is_empty() && found.failure.empty() && !found.interrupted)
-    section.parts.push_back(Part{"None of these entries changes an output of this run."});
+    section.parts.push_back(Part{"None of these parameters changes an output of this run."});
   section.parts.push_back(peaks);
   section.parts.push_back(Section::PageTable{others});
   for (const SensitivityKey &key : found.keys)
     if (!key.frame.empty())
       section.parts.push_back(
-          Part{short_key(key.key) + " changes the reduced frame, whose share is found by " + key.frame + ".", true});
+          Part{short_key(key.key) + " changes the reduced frame; this contribution is computed by " + key.frame + ".",
+               true});
   return {section};
 }
 

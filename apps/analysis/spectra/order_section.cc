@@ -82,7 +82,8 @@ Chart waterfall_chart(const Waterfall &spectra, const std::vector<coupling::Mode
   chart.width            = 880.;
   chart.height           = 420.;
   chart.title            = spectra.name + ": spectra over the speed";
-  chart.note = "the highest is " + short_text(most * unit.factor) + " " + unit.unit + "; dashed: orders of the speed";
+  chart.note =
+      "highest amplitude " + short_text(most * unit.factor) + " " + unit.unit + "; dashed: orders of the speed";
   chart.x.label            = "frequency [Hz]";
   chart.y.label            = "speed [1/min]";
   chart.x.begin            = 0.;
@@ -121,10 +122,10 @@ Chart waterfall_chart(const Waterfall &spectra, const std::vector<coupling::Mode
 Section order_section(const Result &result, const OrderTracking &tracking)
 {
   Section section{"orders", "Orders of the speed of " + tracking.rotor, "Orders", Section::Place::history, true};
-  section.parts.push_back(Section::Sentences{"Signals sampled anew over the angle of " + tracking.rotor +
+  section.parts.push_back(Section::Sentences{"Signals resampled over the angle of " + tracking.rotor +
                                              ", in windows of " + std::to_string(tracking.turns) +
-                                             " turns: what shakes with its speed and its multiples."});
-  HtmlTable   table({"signal", "#order", "#largest amplitude", "unit", "#at [1/min]", "#at t [s]"});
+                                             " revolutions: vibration at multiples of its speed."});
+  HtmlTable   table({"signal", "#order", "#largest amplitude", "unit", "#speed [1/min]", "#time [s]"});
   std::size_t drawn = 0;
   for (const OrderedSignal &signal : tracking.signals)
   {

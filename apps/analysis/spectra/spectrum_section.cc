@@ -82,7 +82,7 @@ Chart spectrum_chart(const Result &result, const RunSpectra &found, const std::v
     chart.title += (spectrum == shown.front() ? ": " : ", ") + spectrum->name;
   chart.x    = {"frequency [Hz]", 0., highest_shown(spectra, shown)};
   chart.note = percent(shown_power) + " of the power of " + (shown.size() > 1 ? "each signal" : "the signal") +
-               " lies below " + short_text(chart.x.end, 3) + " Hz, where the chart ends";
+               " is below " + short_text(chart.x.end, 3) + " Hz, the end of the chart";
   // relative to the largest amplitude: 80 dB, the leakage of the window a few bins away from a line
   constexpr double least_shown = 1e-4;
   chart.y       = {"amplitude [" + unit.unit + "]", least_shown * most * unit.factor, 2. * most * unit.factor};
@@ -120,13 +120,11 @@ std::vector<std::vector<const SignalSpectrum *>> by_unit(const Spectra &spectra)
 std::string rows_text(const Spectra &spectra)
 {
   const double listed_hz = static_cast<double>(spectra.signals.front().amplitudes.size() - 1) * spectra.resolution_hz;
-  return "Rows of the history stand " + short_text(spectra.row_step, 3) + " s apart and carry motion up to " +
+  return "History rows are " + short_text(spectra.row_step, 3) + " s apart and resolve frequencies up to " +
          short_text(spectra.carried_hz, 3) + " Hz" +
-         (listed_hz < 0.999 * spectra.carried_hz
-              ? ", of which the lines up to " + short_text(listed_hz, 3) + " Hz are listed"
-              : "") +
-         ". They are instants, not means: faster motion folds into lines below " +
-         short_text(0.5 / spectra.row_step, 3) + " Hz, and a smaller output.step shows it.";
+         (listed_hz < 0.999 * spectra.carried_hz ? " (listed up to " + short_text(listed_hz, 3) + " Hz)" : "") +
+         ". Rows are samples, not averages: faster motion is aliased to frequencies below " +
+         short_text(0.5 / spectra.row_step, 3) + " Hz; to resolve it, reduce output.step.";
 }
 
 } // namespace
@@ -137,9 +135,9 @@ Section spectrum_section(const Result &result, const RunSpectra &found)
   Section        section{"spectrum", "Spectra", "Spectra", Section::Place::history, true};
   section.parts.push_back(Section::Sentences{
       "Amplitudes over the run, " + short_text(spectra.begin) + " to " + short_text(spectra.end) +
-      " s, in one window after Hann with " + std::to_string(spectra.samples) + " samples: lines stand " +
+      " s, in one Hann window with " + std::to_string(spectra.samples) + " samples. Lines are " +
       short_text(spectra.resolution_hz, 3) +
-      " Hz apart, and two frequencies are told apart from twice that on. Numbers: modes of the coupled machine" +
+      " Hz apart; frequencies are distinguished from twice this distance. Numbers: modes of the coupled machine" +
       (drive_hz(found.orders) > 0. ? "; ticks: orders of " + found.orders->rotor : "") + ". " + rows_text(spectra)});
   int number = 0;
   for (const auto &group : by_unit(spectra))

@@ -137,8 +137,8 @@ std::string leave_out_slow(std::vector<DampedOscillation> &found, const Ringing 
   if (slow == found.end())
     return "";
   found.erase(slow, found.end());
-  return "what is slower than " + rounded(periods_of_window / window) + " Hz is left out: " + rounded(window) +
-         " s after the last contact are less than two periods of it";
+  return "vibrations below " + rounded(periods_of_window / window) + " Hz are omitted: the window of " +
+         rounded(window) + " s after the last contact is shorter than two of their periods";
 }
 
 /// The strongest first, so that each is compared with those that may have made it.
@@ -177,9 +177,9 @@ void find_ringing(const Scene &scene, PreparedMachine &prepared, const Eigen::Ve
   constexpr long        least_samples = 40; // twice the poles of ten modes
   if (samples.rows() < least_samples)
   {
-    result.ringing.note = "too few rows of the history lie after the last contact, at " + rounded(ringing.begin) +
-                          " s; modes need " + std::to_string(least_samples) + ", there are " +
-                          std::to_string(samples.rows()) + ": give run.end a larger or output.step a smaller value";
+    result.ringing.note = "too few history rows after the last contact at " + rounded(ringing.begin) +
+                          " s: " + std::to_string(samples.rows()) + " rows, " + std::to_string(least_samples) +
+                          " needed; increase run.end or reduce output.step";
     return;
   }
   coupling::PencilFit fit = coupling::matrix_pencil(samples, ringing.step, scene.stages.modes);
@@ -192,7 +192,7 @@ void find_ringing(const Scene &scene, PreparedMachine &prepared, const Eigen::Ve
   }
   catch (const std::exception &none)
   {
-    result.ringing.note = std::string("no modes to compare with: ") + none.what();
+    result.ringing.note = std::string("no linearised modes for comparison: ") + none.what();
   }
   tell_modes(fit.oscillations, linearised, ringing);
 }

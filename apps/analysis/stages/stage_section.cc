@@ -23,7 +23,7 @@ HtmlTable stage_table(const std::vector<Stage> &stages)
 {
   std::vector<std::string> heads{"signal", "unit"};
   for (const Stage &stage : stages)
-    for (const char *extreme : {" least", " most"})
+    for (const char *extreme : {" minimum", " maximum"})
       heads.push_back("#" + stage.name + extreme);
   HtmlTable table(heads);
   Noise     noise;
@@ -51,12 +51,11 @@ void add_ringing(const Ringing &ringing, std::vector<Section::Part> &parts)
   if (!ringing.modes.empty())
   {
     parts.push_back(Section::Sentences{"Ringing " + interval_text(ringing.begin, ringing.end) +
-                                       ", after the last contact, and the machine linearised at rest."});
+                                       ", after the last contact, compared with the machine linearised at rest."});
     parts.push_back(Section::Sentences{
-        "Damped frequencies and damping are found in the signals by the matrix pencil, which leaves " +
+        "Damped frequencies and damping ratios are identified by the matrix-pencil method, with a fit residual of " +
             short_text(100. * ringing.residual, 2) +
-            " % of them. Large swings are slower than small ones, and make others: multiples and sums of their "
-            "frequencies.",
+            " %. Large oscillations are slower than small ones and generate multiples and sums of their frequencies.",
         true});
     parts.push_back(table_of(ringing.modes).shown());
   }
@@ -69,13 +68,13 @@ void add_ringing(const Ringing &ringing, std::vector<Section::Part> &parts)
 
 std::vector<Section> sections_of(const Result &, const StageResult &found)
 {
-  Section section{"stages", found.stages.empty() ? "Off the ground" : "Stages of the run", "", Section::Place::course};
+  Section section{"stages", found.stages.empty() ? "Wheel lift-off" : "Stages of the run", "", Section::Place::course};
   for (const Stage &stage : found.stages)
     section.parts.push_back(Section::Sentences{stage.name + " " + interval_text(stage.begin, stage.end)});
   if (!found.stages.empty())
     section.parts.push_back(Section::PageTable{stage_table(found.stages)});
   if (!found.lift_offs.empty() && !found.stages.empty())
-    section.parts.push_back(Section::Sentences{"Wheels off the ground:"});
+    section.parts.push_back(Section::Sentences{"Wheel lift-off:"});
   if (!found.lift_offs.empty())
     section.parts.push_back(table_of(found.lift_offs).shown());
   add_ringing(found.ringing, section.parts);

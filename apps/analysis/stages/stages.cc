@@ -45,12 +45,12 @@ StageExtremes extremes_of(const HistoryRows &rows, const std::string &signal, co
 /// For a missed boundary: the closest value of the signal of its switch.
 std::string unreached(const Scene &scene, const std::string &border, const RunResult &run)
 {
-  std::string text = scene.stages.place + ": the run never came to the border '" + border + "'";
+  std::string text = scene.stages.place + ": the run did not reach the stage boundary '" + border + "'";
   const auto  own  = std::find_if(scene.switches.begin(), scene.switches.end(),
                                   [&](const SwitchRequest &any)
                                   { return any.request.name == border || any.request.name + ".switch" == border; });
   if (own == scene.switches.end())
-    return text + ": it has no such event; the events of a run are listed in its report and in summary.json";
+    return text + ", because no event has this name; report and summary.json list the events of a run";
   const bool rises  = own->request.crossing != coupling::SwitchCrossing::falling;
   const auto signal = std::find_if(scene.signals.begin(), scene.signals.end(),
                                    [&](const SignalRequest &any) { return any.path == own->request.signal; });
@@ -58,22 +58,22 @@ std::string unreached(const Scene &scene, const std::string &border, const RunRe
   {
     const Stage         all{"", rows.t(0), rows.t(rows.size() - 1), {}};
     const StageExtremes found = extremes_of(rows, signal->name, all);
-    text += ": " + own->request.signal + " comes to " + rounded(rises ? found.max : found.min) + " " + found.unit +
+    text += ": " + own->request.signal + " reaches " + rounded(rises ? found.max : found.min) + " " + found.unit +
             " at " + rounded(rises ? found.t_max : found.t_min) + " s";
   }
-  return text + ", the switch needs " + rounded(own->request.level) + " (" + own->place +
-         "); give the switch a value that is reached, or the run more time (run.end)";
+  return text + "; its switch needs " + rounded(own->request.level) + " (" + own->place +
+         "); change the value of the switch, or extend the run (run.end)";
 }
 
 /// A first stage of no length.
 std::string over_at_start(const Scene &scene, const std::string &border)
 {
-  std::string text = scene.stages.place + ": the stage '" + scene.stages.names.front() + "' is over at the start, '" +
-                     border + "' happens there";
+  std::string text = scene.stages.place + ": the stage '" + scene.stages.names.front() +
+                     "' is empty, because its boundary '" + border + "' occurs at the start";
   for (const SwitchRequest &own : scene.switches)
     if (own.request.name == border)
-      text += ": " + own.request.signal + " lies at or beyond " + rounded(own.request.level) + " already (" +
-              own.place + "); start from where it does not, or give the switch another value";
+      text += ": " + own.request.signal + " has already reached " + rounded(own.request.level) + " (" + own.place +
+              "); change the initial state or the value of the switch";
   return text;
 }
 

@@ -347,8 +347,8 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
     throw std::invalid_argument("--samples: needs 2 or more, got " + std::to_string(chart_options.samples));
   if (!chart_options.modes.empty() && !scene.reduction.reduces())
     throw std::invalid_argument("--modes: " + options.input +
-                                " does not reduce its frame, so that it has no modes to choose; "
-                                "leave the option out or give the scene a [reduction]");
+                                " does not reduce its frame, so there are no modes to choose; omit the option, or add "
+                                "[reduction] to the scene");
   choose_methods(chart_options.methods, PeerChoice::with, 0);
   const std::filesystem::path folder = results_path(options, scene);
   const ResultsLock           held(folder);
@@ -387,7 +387,7 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
   if (interruption())
   {
     chart.targets.clear();
-    chart.notes.push_back("interrupted: not all methods and steps were run, so no best choice is named");
+    chart.notes.push_back("interrupted: not all methods and steps were run, so no fastest method is listed");
   }
 
   write_chart(folder, chart);
@@ -417,7 +417,7 @@ Command chart_command()
            {"on", "off", "both"}),
        {"--peers,!--no-peers", &own->peers, "include general-purpose integrators (default)"},
        {"--native-vectors", &own->native, "general-purpose integrators with vector loops compiled for this processor"},
-       {"--quick", &own->quick, "one minute instead of ten: fewer methods, steps and tolerances"},
+       {"--quick", &own->quick, "fewer methods, steps and tolerances: one minute instead of ten"},
        CommandOption{"--samples", &own->samples, "number of instants for the error (default 2000)"}.at_most(1e6),
        CommandOption{"--limit", &own->limit, "largest CPU time of one run [s] (default 20, with --quick 5)"}
            .above_zero(),

@@ -105,9 +105,9 @@ Reference own_reference(const WorkProblem &problem, std::vector<std::string> &no
       why = reason.what();
       notes.push_back("no reference by " + candidate.how + ": " + why);
     }
-  notes.push_back("no reference: errors are not known, only what each run costs; give one by --reference");
+  notes.push_back("no reference: errors are unknown, only the cost of each run; supply one by --reference");
   Reference none;
-  none.how    = "none, errors are not known";
+  none.how    = "none, errors are unknown";
   none.method = fixed(problem, 1e4);
   return none;
 }
@@ -121,12 +121,12 @@ Reference compared(const ReferenceFile &file, const std::vector<coupling::Signal
   if (own.values.size() == 0)
   {
     reference.error = 0.;
-    reference.how   = file.path + ", taken as exact: there is no reference of our own";
+    reference.how   = file.path + ", assumed exact, because there is no reference run";
     return reference;
   }
   reference.error = scaled_error(own.values, reference.values);
-  reference.how =
-      file.path + ", " + number(reference.error) + " from our own (" + own.how + ", error " + number(own.error) + ")";
+  reference.how   = file.path + ", " + number(reference.error) + " from the reference run (" + own.how + ", error " +
+                  number(own.error) + ")";
   return reference;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/output/charts/chart.h"
 
+#include "apps/output/text/page_language.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
@@ -422,7 +423,7 @@ std::string chart_svg(const Chart &described)
                     svg_text(left_margin, 19., chart.title, "title") + svg_text(left_margin, 37., chart.note, "small");
   for (int i = 0; i < n; ++i)
     svg += panel_svg(chart, described.panels[i], heights, (i % columns) * width, head + (i / columns) * height);
-  return svg + "</svg>\n";
+  return in_page_language(svg + "</svg>\n");
 }
 
 } // namespace gestell::apps

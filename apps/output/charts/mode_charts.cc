@@ -98,7 +98,7 @@ std::string mode_heading(std::size_t j, const coupling::Mode &mode)
 
 std::string damping_text(const coupling::Mode &mode)
 {
-  return std::isnan(mode.damping_ratio) ? "does not vibrate"
+  return std::isnan(mode.damping_ratio) ? "no vibration"
                                         : "damping ratio " + short_text(100. * mode.damping_ratio, 3) + " %";
 }
 
@@ -134,7 +134,7 @@ std::string shape_svg(const Result &result, const std::string &title, const coup
   }
   std::string note = damping_text(mode);
   if (any_angle)
-    note += "; angles (second colour) times " + short_text(length) + " m";
+    note += "; angles (second colour) multiplied by " + short_text(length) + " m";
   return bar_chart(title, bars, note);
 }
 

@@ -173,7 +173,8 @@ std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families
   };
   Chart period    = on_logarithmic("Period error (dashed: too fast)", "relative", 10., 1e-10, 10.);
   Chart damping   = on_logarithmic("Numerical damping (dashed: negative)", "damping ratio", 10., 1e-10, 1.);
-  Chart overshoot = on_logarithmic("Overshoot from a displacement, 20 steps", "times the start", highest, 1., 1e6);
+  Chart overshoot = on_logarithmic("Overshoot after an initial displacement, 20 steps", "ratio to the initial value",
+                                   highest, 1., 1e6);
   radius.shades   = {{1., radius.y.end, 1}};
 
   for (const MethodFamily &family : families)

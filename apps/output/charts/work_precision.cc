@@ -45,18 +45,18 @@ std::string setting_text(const WorkPoint &point)
 
 std::string model_text(const WorkModel &model)
 {
-  return std::to_string(model.coordinates) + " coordinates" +
-         (model.modes > 0 ? ", " + std::to_string(model.modes) + " of them modes" : "");
+  return std::to_string(model.coordinates) + " DOFs" +
+         (model.modes > 0 ? ", " + std::to_string(model.modes) + " of them modal" : "");
 }
 
 std::string front_table(const WorkPrecision &chart, int model)
 {
-  std::string text = cell("method", 34) + cell("events", 7) + cell("setting", 11) + right("error", 9) +
+  std::string text = cell("method", 34) + cell("located", 7) + cell("setting", 11) + right("error", 9) +
                      right("CPU [ms]", 10) + right("steps", 9) + right("Newton", 9) + right("factor.", 8) + "\n";
   for (const std::size_t i : pareto_front(chart, model))
   {
     const WorkPoint &point = chart.points[i];
-    text += cell(point.method, 34) + cell(point.events ? "located" : "passed", 7) + cell(setting_text(point), 11) +
+    text += cell(point.method, 34) + cell(point.events ? "yes" : "no", 7) + cell(setting_text(point), 11) +
             right(short_text(point.error, 2), 9) + right(short_text(1e3 * point.cpu_s, 4), 10) +
             right(std::to_string(point.work.steps), 9) + right(std::to_string(point.work.newton), 9) +
             right(std::to_string(point.work.factorisations), 8) + "\n";
@@ -66,23 +66,23 @@ std::string front_table(const WorkPrecision &chart, int model)
 
 std::string choice_text(const WorkPrecision &chart, const std::vector<WorkSeries> &series, int model, double target)
 {
-  std::string text = "best choice at " + short_text(target, 2) + ": ";
+  std::string text = "fastest at an error of " + short_text(target, 2) + ": ";
   const auto  best = best_at_error(chart, series, model, true, target);
   if (!best)
     return text + (target < 10. * chart.models[model].reference_error ? "not resolved by the reference\n"
-                                                                      : "none of these runs is that accurate\n");
+                                                                      : "no run reaches this error\n");
   const WorkPoint &point = chart.points[best->at.point];
-  text += point.method + ", " + setting_text(point) + ", events " + (point.events ? "located" : "passed over") + ", " +
+  text += point.method + ", " + setting_text(point) + ", events " + (point.events ? "located" : "not located") + ", " +
           (best->at.bound ? "at most " : "") + short_text(1e3 * best->at.cpu_s, 3) + " ms";
   if (!best->at.bound && point.cpu_s > 1.1 * best->at.cpu_s)
-    text +=
-        " on its line (this run " + short_text(1e3 * point.cpu_s, 3) + " ms for " + short_text(point.error, 2) + ")";
+    text += " interpolated (this run: " + short_text(1e3 * point.cpu_s, 3) + " ms, error " +
+            short_text(point.error, 2) + ")";
   if (const auto peer = best_at_error(chart, series, model, false, target))
-    text += "; " + peer->series->method + (peer->series->events ? " with events " : " ") +
+    text += "; " + peer->series->method + (peer->series->events ? ", events located, " : " ") +
             (peer->at.bound ? "at most " : "") + short_text(1e3 * peer->at.cpu_s, 3) +
-            " ms: " + short_text(peer->at.cpu_s / best->at.cpu_s, 3) + " times that";
+            " ms: " + short_text(peer->at.cpu_s / best->at.cpu_s, 3) + " times as long";
   else if (!chart.peers.empty())
-    text += "; no run of " + chart.peers + " is that accurate";
+    text += "; no run of " + chart.peers + " reaches this error";
   return text + "\n";
 }
 
@@ -230,10 +230,10 @@ std::string work_precision_text(const WorkPrecision &chart)
   for (std::size_t m = 0; m < chart.models.size(); ++m)
   {
     const WorkModel &model = chart.models[m];
-    text += model_text(model) + "; reference: " + model.reference + ", its error " + power_text(model.reference_error) +
-            "\n";
+    text +=
+        model_text(model) + "; reference: " + model.reference + ", error " + power_text(model.reference_error) + "\n";
     if (std::isfinite(model.truncation))
-      text += "modes left out are worth " + short_text(model.truncation, 2) + "\n";
+      text += "error due to truncated modes: " + short_text(model.truncation, 2) + "\n";
     text += "\nPareto front\n" + front_table(chart, int(m)) + "\n";
     for (const double target : chart.targets)
       text += choice_text(chart, series, int(m), target);
@@ -248,8 +248,9 @@ std::string work_precision_settings(const WorkPrecision &chart)
 {
   const std::vector<WorkSeries> series = work_series(chart);
   const int                     model  = int(chart.models.size()) - 1;
-  std::string text = "# Settings for the scene " + chart.scene + ", from gestell chart: the fastest of its own runs " +
-                     "at an error, " + model_text(chart.models[model]) + ".\n# Replace the entries of [run] by them.\n";
+  std::string                   text   = "# Settings for the scene " + chart.scene +
+                     ", from gestell chart: fastest Gestell run for each error, " + model_text(chart.models[model]) +
+                     ".\n# Use one of them for [run].\n";
   bool in_force = false;
   for (const double target : chart.targets)
   {
@@ -257,7 +258,7 @@ std::string work_precision_settings(const WorkPrecision &chart)
     text += "\n# error " + short_text(target, 2) + ": ";
     if (!best)
     {
-      text += "none of the runs is that accurate, or the reference does not resolve it\n";
+      text += "no run reaches this error, or the reference does not resolve it\n";
       continue;
     }
     const WorkPoint &point = chart.points[best->at.point];

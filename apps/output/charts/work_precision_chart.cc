@@ -80,7 +80,7 @@ Curve curve_of(const WorkPrecision &chart, const MethodLine &line, WorkMeasure m
     const WorkPoint &point = chart.points[i];
     curve.add(work_of(point, measure), point.error);
     curve.notes.push_back(
-        {point.method + ", " + setting_words(point) + (point.events ? ", events located" : ", events passed over"),
+        {point.method + ", " + setting_words(point) + (point.events ? ", events located" : ", events not located"),
          !point.resolved});
   }
   return curve;
@@ -107,8 +107,8 @@ int family_colour(const std::string &family)
 std::string work_precision_svg(const WorkPrecision &work, int model, WorkMeasure measure)
 {
   const WorkModel &size = work.models[model];
-  Chart chart{"Work and precision: " + work.scene + ", " + std::to_string(size.coordinates) + " coordinates"};
-  chart.note = "Each line is the better of events located and passed over; hollow: not resolved by the reference "
+  Chart            chart{"Work and precision: " + work.scene + ", " + std::to_string(size.coordinates) + " DOFs"};
+  chart.note = "Each line is the better of runs with and without event location; hollow: not resolved by the reference "
                "(error " +
                short_text(size.reference_error, 2) + ")";
   chart.x.scale = chart.y.scale = Scale::logarithmic;

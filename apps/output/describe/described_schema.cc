@@ -47,6 +47,23 @@ std::string whole_meaning(const std::string &name, const std::string &meaning)
   return words + ' ' + meaning;
 }
 
+/// "`t` [s], `modes` (`mode`, `energy` [J])": members without their meaning.
+std::string member_names(const Json &schema)
+{
+  for (const char *inner : {"items", "additionalProperties"})
+    if (schema.contains(inner))
+      return member_names(schema[inner]);
+  std::string names;
+  if (schema.contains("properties"))
+    for (const auto &[name, own] : schema["properties"].items())
+    {
+      const std::string unit = own["~"][0], inner = member_names(own);
+      names += (names.empty() ? "`" : ", `") + name + '`' + (unit.empty() ? "" : " [" + unit + "]") +
+               (inner.empty() ? "" : " (" + inner + ")");
+    }
+  return names;
+}
+
 } // namespace
 
 std::string member_rows(const Json &schema, const std::string &at)
@@ -60,10 +77,12 @@ std::string member_rows(const Json &schema, const std::string &at)
     for (const auto &[name, own] : schema["properties"].items())
     {
       const Json       &always = schema["required"];
-      const std::string path = (at.empty() ? "" : at + '.') + name, unit = own["~"][0], meaning = own["~"][1];
+      const std::string path = (at.empty() ? "" : at + '.') + name, unit = own["~"][0], meaning = own["~"][1],
+                        inner = at.empty() ? "" : member_names(own);
       rows += "| `" + path + "` | " + type_name(own) +
               (std::find(always.begin(), always.end(), name) == always.end() ? ", if any" : "") + " | " + unit + " | " +
-              whole_meaning(name, meaning) + " |\n" + member_rows(own, path);
+              whole_meaning(name, meaning) + (inner.empty() ? "" : ": " + inner) + " |\n" +
+              (at.empty() ? member_rows(own, path) : "");
     }
   return rows;
 }

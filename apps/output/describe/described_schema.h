@@ -72,8 +72,8 @@ Json described_schema()
 /// The schema without the keys that begin with "~".
 Json published(const Json &schema);
 
-/// Markdown table rows, one per member, nested members included: path ("signals.NAME.max", "events[].t"), type, unit
-/// and meaning.
+/// Markdown table rows: path ("signals.NAME.max", "events[].t"), type, unit and meaning; one for each member of the
+/// first two levels, which lists the names and units of deeper members.
 std::string member_rows(const Json &schema, const std::string &at = "");
 
 } // namespace gestell::apps

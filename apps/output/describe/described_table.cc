@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace gestell::apps
 {
@@ -29,6 +30,41 @@ std::string cell_text(const DescribedTable::Cell &cell)
   return std::get<std::string>(cell);
 }
 
+std::string with_unit(const std::string &text, const std::string &unit)
+{
+  return unit.empty() ? text : text + " [" + unit + "]";
+}
+
+/// Columns for readers where the name of the member is not a noun of the field; files keep the names.
+const std::map<std::string, std::string> &readable_heads()
+{
+  static const std::map<std::string, std::string> heads = {{"t", "time"},
+                                                           {"behind", "after"},
+                                                           {"duration_over_period", "duration / T"},
+                                                           {"rise_over_period", "rise time / T"},
+                                                           {"fall_over_period", "fall time / T"},
+                                                           {"fall_factor", "residual vibration ratio"},
+                                                           {"strain_energy_in", "part with most strain energy"},
+                                                           {"swing_hz", "observed frequency"},
+                                                           {"seen_hz", "observed frequency"},
+                                                           {"closed_hz", "frequency without clearance"},
+                                                           {"mode_hz", "mode frequency"},
+                                                           {"share", "share of the mode"},
+                                                           {"sum_of_shares", "sum over all modes"},
+                                                           {"stiffness_share", "stiffness ratio"},
+                                                           {"modes_of", "system"},
+                                                           {"number", "mode"},
+                                                           {"growing_modes", "unstable modes"},
+                                                           {"worst_hz", "most unstable frequency"},
+                                                           {"step_that_works_s", "largest stable step"},
+                                                           {"lowest_period_error", "period error of lowest mode"},
+                                                           {"highest_period_error", "period error of highest mode"},
+                                                           {"from_omega_h", "unstable from omega h"},
+                                                           {"to_omega_h", "unstable to omega h"},
+                                                           {"at_omega_h", "omega h of largest growth"}};
+  return heads;
+}
+
 bool ends_with(const std::string &text, const std::string &end)
 {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -43,7 +79,7 @@ std::string DescribedTable::Column::head() const
     if (unit == own && ends_with(text, suffix))
       text.resize(text.size() - std::string(suffix).size());
   std::replace(text.begin(), text.end(), '_', ' ');
-  return unit.empty() ? text : text + " [" + unit + "]";
+  return with_unit(text, unit);
 }
 
 DescribedTable DescribedTable::renamed(const std::vector<std::pair<std::string, std::string>> &names) &&
@@ -70,7 +106,11 @@ HtmlTable DescribedTable::shown() const
 {
   std::vector<std::string> heads;
   for (const Column &column : columns)
-    heads.push_back((column.numeric ? "#" : "") + column.head());
+  {
+    const auto own = readable_heads().find(column.name);
+    heads.push_back((column.numeric ? "#" : "") +
+                    (own == readable_heads().end() ? column.head() : with_unit(own->second, column.unit)));
+  }
   HtmlTable table(heads);
   for (const auto &row : rows)
   {

@@ -89,7 +89,7 @@ bool MatFile::available()
 
 MatFile::MatFile(const std::filesystem::path &path, const std::string &) : place_(path.string())
 {
-  throw std::invalid_argument("--export mat: this build has no libmatio; install libmatio-dev and build again, or take "
+  throw std::invalid_argument("--export mat: this build has no libmatio; install libmatio-dev and build again, or use "
                               "matrix-market");
 }
 

@@ -85,7 +85,7 @@ Json facts_of(const SurfaceReport &face, const coupling::LengthUnit &unit)
   facts.push_back({"centre", at(face.centre)});
   facts.push_back({"box from", at(face.min)});
   facts.push_back({"to", at(face.max)});
-  facts.push_back({"edges of the box", at(edges_of(face))});
+  facts.push_back({"box dimensions", at(edges_of(face))});
   return facts;
 }
 
@@ -97,7 +97,7 @@ std::string others_of(const SurfaceReport &face)
   std::string list;
   for (const int tag : face.found_with)
     list += (list.empty() ? "" : ", ") + std::to_string(tag);
-  return "No selector parts this face from " + count_text(face.found_with.size(), "other") + ": face " + list +
+  return "No selector distinguishes this face from " + count_text(face.found_with.size(), "other") + ": face " + list +
          ". Name it in the CAD program, or split it.";
 }
 
@@ -198,8 +198,8 @@ Json frame_json(const MeshReport &report)
 std::string faces_table(const MeshReport &report)
 {
   const std::string unit = report.unit.name;
-  HtmlTable         table({"face", "name", "kind", "along", "#radius [" + unit + "]", "#area [" + unit + "²]",
-                           "#centre [" + unit + "]", "#edges of its box [" + unit + "]"});
+  HtmlTable         table({"face", "name", "kind", "direction", "#radius [" + unit + "]", "#area [" + unit + "²]",
+                           "#centre [" + unit + "]", "#box dimensions [" + unit + "]"});
   const auto        bare = [&](const Triple &x) { return place(x, {report.unit.length, ""}); };
   for (const SurfaceReport &face : report.surfaces)
     table.add({std::to_string(face.tag), face.name, face.kind,
@@ -212,18 +212,17 @@ std::string faces_table(const MeshReport &report)
 const char *const board =
     "<div id=\"board\"><div class=\"view\"><div class=\"tools\" id=\"views\"></div>"
     "<canvas id=\"turn\" width=\"1000\" height=\"760\"></canvas><div id=\"tip\"></div>"
-    "<p class=\"soft\">Drag turns, with shift moves, the wheel zooms, a click chooses a face.</p></div>"
-    "<div class=\"card\"><p id=\"hint\" class=\"soft\">Click a face in a picture or its row in the table: its entry "
-    "for "
-    "the scene appears here.</p><div id=\"card\" hidden><h2 id=\"head\"></h2><table id=\"facts\"></table>"
+    "<p class=\"soft\">Drag to rotate, Shift+drag to move, wheel to zoom, click to select a face.</p></div>"
+    "<div class=\"card\"><p id=\"hint\" class=\"soft\">Click a face in a picture or a row of the table to see its "
+    "selector for the scene.</p><div id=\"card\" hidden><h2 id=\"head\"></h2><table id=\"facts\"></table>"
     "<p id=\"others\"></p><p id=\"choices\"></p><p><label>name in the scene <input type=\"text\" id=\"name\"></label> "
     "<button id=\"copy\">copy</button></p><pre id=\"entry\"></pre></div></div></div>\n";
 
 std::string lead_of(const MeshReport &report)
 {
   return count_text(report.surfaces.size(), "face") + " on " +
-         count_text(std::max<std::size_t>(report.solids.size(), 1), "solid") + "; the file's unit of length is " +
-         report.unit.name + ". An entry of a scene is in m.";
+         count_text(std::max<std::size_t>(report.solids.size(), 1), "solid") + "; the file's length unit is " +
+         report.unit.name + ". Scene values are in m.";
 }
 
 } // namespace
@@ -239,18 +238,17 @@ std::string faces_page(const MeshReport &report, const std::string &file, const 
   for (const SurfaceReport &face : report.surfaces)
     entries += face_entry(face) + "\n";
   const std::string body =
-      note_box(report.notes) + board + section("sides", "From all sides", "<div class=\"sides\"></div>") +
+      note_box(report.notes) + board + section("sides", "Views from all sides", "<div class=\"sides\"></div>") +
       section("faces", "All faces",
-              "<p class=\"filter\"><label>only with <input type=\"search\" id=\"filter\" placeholder=\"plane, "
+              "<p class=\"filter\"><label>filter <input type=\"search\" id=\"filter\" placeholder=\"plane, "
               "cylinder, a name, a number\"></label></p>" +
                   faces_table(report)) +
-      "<noscript><h2>Entries for the scene</h2><pre>" + escape_xml(entries) +
+      "<noscript><h2>Selectors for the scene</h2><pre>" + escape_xml(entries) +
       "</pre></noscript>\n<script>const frame = " +
       inside_script(frame_json(report).dump(-1, ' ', false, Json::error_handler_t::replace)) + ";\n" + faces_script +
       "</script>\n";
   return page_html({"Faces of " + file, lead_of(report), body,
-                    "Made by gestell " + escape_xml(version) + ". The same faces open in ParaView: faces.vtp.",
-                    faces_style});
+                    "Created with gestell " + escape_xml(version) + ". ParaView: faces.vtp.", faces_style});
 }
 
 } // namespace gestell::apps

@@ -17,7 +17,7 @@ namespace
 {
 
 const char *const list_name = ".gestell-files";
-const char *const list_head = "# Files that gestell wrote here: it replaces and removes no others.";
+const char *const list_head = "# Files that gestell wrote here: it replaces and removes no other files.";
 
 std::error_code last_error()
 {
@@ -136,15 +136,15 @@ std::string OwnFolder::obstacle(const std::string &name) const
     if (type == fs::file_type::symlink)
       return inner.string() + " is a link, and results are not written through links; remove the link";
     if (is_there(path_ / inner) && type != fs::file_type::directory)
-      return inner.string() + " is no folder; move it away";
+      return inner.string() + " is not a folder; move it";
   }
   const fs::path own = path_ / name;
   if (name.back() == '/' || !is_there(own))
     return "";
   if (type_of(own) == fs::file_type::directory)
-    return name + " is a folder, in the place of a file; move it away";
+    return name + " is a folder where a file is needed; move it";
   if (names_.count(name) == 0 || type_of(own) != fs::file_type::regular)
-    return name + " was not written by gestell, and would be replaced; move it away";
+    return name + " was not written by gestell and would be overwritten; move it";
   return "";
 }
 
@@ -177,7 +177,7 @@ void OwnFolder::require_free(const std::vector<std::string> &patterns, const std
     for (const std::string &name : names_of(input, path_))
       if (std::any_of(patterns.begin(), patterns.end(),
                       [&](const std::string &pattern) { return has_form(name, pattern); }))
-        refuse(name + " is read by this command, and would be replaced; copy it to another place");
+        refuse(name + " is an input of this command and would be overwritten; copy it to another folder");
 }
 
 bool OwnFolder::is_any_of(const std::string &name, const std::vector<fs::path> &inputs) const
@@ -194,13 +194,13 @@ void OwnFolder::require_own_list() const
 {
   if (!is_own_list(path_ / list_name))
     throw std::invalid_argument("result folder " + path_.string() + ": " + list_name +
-                                " is no list of gestell; move it away, or name another folder with -o DIR.");
+                                " is not a file list written by gestell; move it, or name another folder with -o DIR.");
 }
 
 void OwnFolder::enter(const std::string &name)
 {
   if (!stays_inside(name))
-    throw std::invalid_argument(in_words(name, path_) + ": is no name of a file in a folder");
+    throw std::invalid_argument(in_words(name, path_) + ": not the name of a file inside the folder");
   if (names_.count(name) > 0)
     return;
   require_own_list();

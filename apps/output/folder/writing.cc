@@ -79,11 +79,11 @@ std::vector<std::string> write_or_rescue(const fs::path &folder, const std::func
     return writing.names();
   std::string message = writing.failures().front();
   if (n_failures > 1)
-    message += "\n  nor could " + std::to_string(n_failures - 1) + " more, files and series of files, be written";
+    message += "\n  " + std::to_string(n_failures - 1) + " more files or series of files could not be written";
   const fs::path elsewhere = written_elsewhere(write);
   throw coupling::WriteFailure(message + (elsewhere.empty()
-                                              ? "\n  what could be written is in " + folder.string()
-                                              : "\n  everything is in " + elsewhere.string() + " instead"));
+                                              ? "\n  all other results are in " + folder.string()
+                                              : "\n  all results are in " + elsewhere.string() + " instead"));
 }
 
 } // namespace gestell::apps

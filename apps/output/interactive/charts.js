@@ -49,8 +49,8 @@
     }
 
     build_frame() {
-      const reset = element("button", { type: "button", className: "page-button", textContent: "whole",
-        title: "show all again (key 0)", onclick: () => this.reset() });
+      const reset = element("button", { type: "button", className: "page-button", textContent: "reset",
+        title: "show the whole range (key 0)", onclick: () => this.reset() });
       this.legend = element("div", { className: "chart-legend" });
       this.plot = element("div", { className: "plot", tabIndex: 0 });
       this.plot.style.height = this.data.height + "px";
@@ -136,7 +136,7 @@
         const line = element("i", {}), value = element("span", {});
         line.style.borderColor = this.colours.series[i];
         line.style.borderTopStyle = curve.line < 0 || curve.line === 2 ? "dotted" : curve.line === 0 ? "solid" : "dashed";
-        const button = element("button", { type: "button", title: "shows or hides the curve" }, line, curve.name, value);
+        const button = element("button", { type: "button", title: "show or hide the curve" }, line, curve.name, value);
         button.setAttribute("aria-pressed", "true");
         button.onclick = () => this.toggle(i, button);
         if (curve.name) this.legend.append(button);

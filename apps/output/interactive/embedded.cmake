@@ -1,4 +1,4 @@
-# Scripts that pages carry, compiled into the program: the libraries of Debian's packages libjs-dygraphs and libjs-three, and ours.
+# What pages are made of, compiled into the program: the scripts of Debian's packages libjs-dygraphs and libjs-three, ours, and the German headings.
 set(GESTELL_JAVASCRIPT /usr/share/javascript CACHE PATH "folder of the packages libjs-dygraphs and libjs-three")
 set(libraries
   dygraphs dygraphs/dygraph.min.js
@@ -49,6 +49,8 @@ while(scripts)
   list(POP_FRONT scripts name path)
   gestell_embed(${name} "${CMAKE_CURRENT_SOURCE_DIR}/interactive/${path}")
 endwhile()
+
+gestell_embed(german "${CMAKE_CURRENT_SOURCE_DIR}/text/german.tsv")
 
 set(embedded_source "${PROJECT_BINARY_DIR}/generated/apps/embedded.cc")
 configure_file(interactive/embedded.cc.in "${embedded_source}" @ONLY)

@@ -204,7 +204,7 @@
       this.camera.up.set(0, 0, 1);
       for (const part of this.parts) this.scene.add(part.faces, part.lines);
       this.space = element("div", { className: "machine-canvas", tabIndex: 0 });
-      this.space.setAttribute("aria-label", "the machine; drag turns it, with Shift moves it, the wheel zooms once it is clicked");
+      this.space.setAttribute("aria-label", "3-D view of the machine; drag to rotate, Shift+drag to move, wheel to zoom after a click");
       this.triad = element("canvas", { className: "over", width: 90, height: 90 });
       Object.assign(this.triad.style, { left: "4px", bottom: "4px" });
       this.space.append(this.renderer.domElement, this.triad);
@@ -233,11 +233,11 @@
       this.bar_text = element("span", {});
       this.legend = element("span", {}, this.bar, " ", this.bar_text);
       this.time_label = element("label", {}, "t", this.slider, this.now);
-      this.paint_label = element("label", {}, "colours by", this.paint);
+      this.paint_label = element("label", {}, "colour by", this.paint);
       this.glass = element("input", { type: "checkbox", checked: this.parts.length > 1, onchange: () => this.repaint() });
-      this.glass_label = element("label", {}, this.glass, "frame of glass");
+      this.glass_label = element("label", {}, this.glass, "transparent frame");
       this.glass_label.style.display = this.data.has_frame && this.parts.length > 1 ? "" : "none";
-      const whole = element("button", { type: "button", className: "page-button", textContent: "whole", onclick: () => this.fit() });
+      const whole = element("button", { type: "button", className: "page-button", textContent: "fit", onclick: () => this.fit() });
       const names = element("div", { className: "machine-names" }, ...this.parts.map((part) => this.name_of(part)));
       this.box.append(
         element("div", { className: "machine-bar" }, element("label", {}, "show", this.list), this.play, this.time_label, whole),
@@ -245,7 +245,7 @@
         element("div", { className: "machine-bar" }, element("label", {}, "displacements", this.scale, this.scale_text),
           this.paint_label, this.legend, this.glass_label),
         names,
-        element("p", { className: "soft", textContent: "Drag turns, Shift and drag moves, the wheel zooms after a click. " +
+        element("p", { className: "soft", textContent: "Drag to rotate, Shift+drag to move, wheel to zoom after a click. " +
           "Only displacements are enlarged, not the ideal motion of the mechanism." }));
     }
 
@@ -289,7 +289,7 @@
       if (this.data.has_frame) this.parts[0].see_through(this.glass.checked ? 0.5 : 0);
       const by_displacement = this.paint.selectedIndex === 0 && this.show.kind !== "rest";
       this.legend.style.visibility = this.show.paints || by_displacement ? "" : "hidden";
-      this.bar_text.textContent = this.show.scale || (this.show.kind === "mode" ? "displacement, against the largest"
+      this.bar_text.textContent = this.show.scale || (this.show.kind === "mode" ? "displacement relative to the largest"
         : "displacement 0 to " + gestell.number(1000 * this.show.top, 3) + " mm");
       this.stale = true;
     }

@@ -262,8 +262,8 @@ std::string machine_view(const Result &result)
                             {"shows", shows}};
   const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   return "<div class=\"machine\"><script type=\"application/json\">" + inside_script(json) +
-         "</script></div>\n<noscript><p class=\"soft\">The machine needs JavaScript: then it can be turned here, "
-         "and its pictures are next to the text. <code>gestell show</code> draws them as files.</p></noscript>\n";
+         "</script></div>\n<noscript><p class=\"soft\">The 3-D view needs JavaScript. <code>gestell show</code> writes "
+         "its pictures as files.</p></noscript>\n";
 }
 
 std::string machine_picture(const MachinePicture &picture, const std::string &caption)

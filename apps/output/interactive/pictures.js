@@ -13,7 +13,7 @@
       Object.assign(this, { view, figure, show, t: number(t), later: number(later), enlarge: number(enlarge) });
       this.frame_only = /^(frame|stress)/.test(show.id);
       this.enlarge = this.enlarge === undefined ? (show.kind === "mode" ? show.enlarge : (shown_size * view.data.size) / (show.top || 1)) : this.enlarge;
-      this.canvas = element("canvas", { width: 2 * longest_side, height: longest_side, title: "show it in the view to turn", onclick: () => this.choose() });
+      this.canvas = element("canvas", { width: 2 * longest_side, height: longest_side, title: "open in the 3-D view", onclick: () => this.choose() });
       this.legend = element("div", { className: "machine-names" });
       figure.prepend(this.canvas, this.legend);
       figure.classList.add("drawn"); // now it has a place, where it is seen

@@ -7,8 +7,8 @@ namespace gestell::apps
 
 std::string lacks_for_paraview()
 {
-  return "This build has no VTK: motion.pvd, frame_modes.pvd and stress.pvd were left out. Install libvtk9-dev and "
-         "configure again to have them.";
+  return "This build has no VTK: motion.pvd, frame_modes.pvd and stress.pvd were not written. To get them, install "
+         "libvtk9-dev and configure again.";
 }
 
 const std::vector<WriteSeries *> &paraview_series()
@@ -19,7 +19,7 @@ const std::vector<WriteSeries *> &paraview_series()
 
 std::string write_face_surface(const std::filesystem::path &, const coupling::MeshReport &)
 {
-  return "This build has no VTK: faces.vtp was left out. Install libvtk9-dev and configure again to have it.";
+  return "This build has no VTK: faces.vtp was not written. To get it, install libvtk9-dev and configure again.";
 }
 
 } // namespace gestell::apps

@@ -8,7 +8,7 @@ namespace
 {
 
 const char *const macro_head =
-    R"py(# Opens this result in ParaView as one would want it: displacements enlarged, colours, arrows of velocities
+    R"py(# Opens this result in ParaView: displacements enlarged, colours, arrows of velocities
 # and, thicker, of the forces that elements exert on bodies.
 #   paraview --script=view.py           or in ParaView: View > Python Shell > Run Script
 #   pvbatch view.py picture.png         draws without a window

@@ -45,11 +45,13 @@ std::string free_line(const ModelFacts &model)
 {
   const auto &names = model.frame.free_motions;
   const int   n     = std::max(model.free_motions, static_cast<int>(names.size()));
-  std::string line  = "free to move without elastic energy in " + std::to_string(n) + (n == 1 ? " way" : " ways");
+  std::string line  = std::to_string(n) + (n == 1 ? " rigid-body mode" : " rigid-body modes");
   for (std::size_t i = 0; i < names.size(); ++i)
     line += (i == 0 ? ": " : ", ") + names[i];
   if (const int more = n - static_cast<int>(names.size()); more > 0)
-    line += names.empty() ? "" : ", and " + std::to_string(more) + " more, in which its parts move against each other";
+    line += names.empty()
+                ? ""
+                : ", and " + std::to_string(more) + " more in which parts of the frame move relative to each other";
   return line;
 }
 
@@ -60,17 +62,15 @@ bool any_refined(const std::vector<coupling::Mode> &modes)
   return std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return !std::isnan(mode.refined_hz); });
 }
 
-const char *const refined_words = "The machine runs on the reduced frame, whose frequencies lie above those of the "
-                                  "whole mesh. The refined ones, by one more step of inverse iteration, are nearer to "
-                                  "them, from above, too.";
+const char *const refined_words =
+    "The machine uses the reduced frame, whose frequencies are upper bounds of those of the full mesh. Refined "
+    "frequencies, from one more step of inverse iteration, are closer upper bounds.";
 
 const char *const static_residual_words =
-    "The static load the modes do not carry is that of weight inside the frame, by the energy of the deflection "
-    "between "
-    "the interfaces. Statics at the interfaces are exact without it, and signals and stresses have it added for "
-    "constant "
-    "weight: it matters where deflections inside follow quick accelerations of the whole frame. More modes or "
-    "reduction.inertia_relief carry it.";
+    "The static load not represented by the modes is the share of the deflection energy under the frame's own weight "
+    "that the retained modes miss. Statics at the interfaces are exact. Signals and stresses are corrected for "
+    "constant weight; the missing share matters when the whole frame accelerates quickly. To reduce it, retain more "
+    "modes or set reduction.inertia_relief.";
 
 std::string words_above(double limit, double before, double frequency)
 {
@@ -78,7 +78,7 @@ std::string words_above(double limit, double before, double frequency)
   if (!(before <= reach && frequency > reach))
     return "";
   return "above " + short_text(limit, 4) +
-         " Hz the reduced frame is not made to hold: these follow from too few modes (reduction.frequency raises it)";
+         " Hz, the frequency limit of the reduced frame, frequencies are inaccurate (raise reduction.frequency)";
 }
 
 std::vector<std::string> frame_text(const ModelFacts &model)
@@ -93,9 +93,9 @@ std::vector<std::string> frame_text(const ModelFacts &model)
     lines.push_back("mass " + short_text(model.frame_mass, 6) + " kg");
   constexpr double rounding = 1e-11; // of the energies that cancel in a rigid motion
   if (const double share = model.frame.rigid_energy; !std::isnan(share))
-    lines.push_back("rigid motions of the frame away from its supports cost " + short_text(share, 2) +
-                    " of the elastic energies that cancel in them" +
-                    (share < rounding ? ", which is rounding" : "; it should be rounding: look at the mesh"));
+    lines.push_back("elastic energy of rigid-body displacements without supports: " + short_text(share, 2) +
+                    " of its cancelling terms" +
+                    (share < rounding ? " (rounding error)" : " (more than rounding; check the mesh)"));
   if (model.free_motions > 0 || !model.frame.free_motions.empty())
     lines.push_back(free_line(model));
   if (!model.damping.empty())

@@ -35,17 +35,18 @@ std::string machine_figure(const Result &result)
   const std::vector<Shape> bodies = first.size() > 0 ? mechanism_shapes(result.scenery, first) : std::vector<Shape>();
   MachinePicture           picture{runs ? "motion" : "rest"};
   picture.enlargement = 0.;
-  std::string caption = "The frame";
+  std::string caption = "Frame";
   if (!bodies.empty())
-    caption = std::string("The mechanism") + (result.scenery.has_skin() ? ", seen through the frame," : "") +
-              (runs ? " at t = " + short_text(result.run->picture_times.front()) + " s" : " where its modes are taken");
+    caption = std::string("Mechanism") + (result.scenery.has_skin() ? " seen through the frame," : "") +
+              (runs ? " at t = " + short_text(result.run->picture_times.front()) + " s"
+                    : " in the configuration of the modes");
   if (runs)
     picture.t = result.run->picture_times.front();
   if (runs &&
       far_apart(bodies, mechanism_shapes(result.scenery, result.run->picture_states.back()), result.scenery.size()))
   {
     picture.later = result.run->picture_times.back();
-    caption += ", in outline at t = " + short_text(*picture.later) + " s";
+    caption += "; outline: t = " + short_text(*picture.later) + " s";
   }
   return machine_picture(picture, caption + ".");
 }
@@ -60,14 +61,13 @@ std::string peak_figure(const Result &result)
   const std::string when  = peak.signal + " = " + short_text(peak.value * shown.factor) + " " + shown.unit +
                            " at t = " + short_text(peak.t, 6) + " s";
   const std::string enlarged =
-      times > 0. ? "; displacements of elasticity and play are drawn " + short_text(times) + " times as large" : "";
-  const std::string edges = times > 0. && result.scenery.has_skin() ? ", the faint edges show the frame at rest" : "";
+      times > 0. ? " Elastic and clearance displacements are enlarged " + short_text(times) + " times." : "";
+  const std::string edges = times > 0. && result.scenery.has_skin() ? " Faint edges: frame at rest." : "";
   MachinePicture    picture{"motion"};
   picture.t           = peak.t;
   picture.enlargement = times;
-  return machine_picture(picture, "The machine at its peak, " + escape_xml(when) +
-                                      ", the extreme of the first force asked for, or of the first signal" + enlarged +
-                                      edges + ".");
+  return machine_picture(picture, "Machine at the main peak: " + escape_xml(when) +
+                                      " (extreme of the first force, or of the first signal)." + enlarged + edges);
 }
 
 std::string mode_pictures(const std::vector<coupling::Mode> &modes, const std::string &of, std::size_t most)

@@ -55,10 +55,10 @@ std::string model_text(const ModelFacts &model)
 {
   std::string text;
   if (model.dofs >= 0)
-    text += " with " + count_text(static_cast<std::size_t>(model.dofs), "coordinate");
+    text += " with " + count_text(static_cast<std::size_t>(model.dofs), "DOF");
   if (model.interface >= 0 && model.modes >= 0 && model.frame_dofs > model.interface + model.modes)
-    text += ", " + std::to_string(model.interface + model.modes) + " of them in place of the " +
-            std::to_string(model.frame_dofs) + " of the frame";
+    text += ", " + std::to_string(model.interface + model.modes) + " of them for the " +
+            std::to_string(model.frame_dofs) + " DOFs of the frame";
   return text;
 }
 
@@ -87,13 +87,11 @@ std::string what_it_gave(const coupling::RunResult &run)
     text += (text.empty() ? "" : ", ") + peak.signal->name + " reaches " +
             quantity_text(peak.value, peak.signal->unit) + " at " + short_text(peak.t) + " s";
   if (!text.empty() && windowed(run))
-    text = "From " + short_text(run.from, 6) + " s on, " + text;
-  text += (text.empty() ? "There are " : "; ") + std::string(text.empty() ? "" : "there are ") +
-          count_text(run.events.size(), "event");
+    text = "After " + short_text(run.from, 6) + " s, " + text;
+  text += (text.empty() ? "" : ". ") + count_text(run.events.size(), "event") + " occurred.";
   if (run.energy.exchanged > 0.)
-    text += ", and the energy balance closes to " + short_text(100. * run.energy.residual / run.energy.exchanged, 2) +
-            " % of what the motion exchanges";
-  text += ".";
+    text += " The energy residual is " + short_text(100. * run.energy.residual / run.energy.exchanged, 2) +
+            " % of the energy exchanged.";
   return text;
 }
 
@@ -114,7 +112,7 @@ std::string other_sentences(const Result &result)
   else if (!result.coupled_modes.empty() || !result.frame_modes.empty())
     text += "The natural frequencies of " + result.scene + " were computed" + model_text(result.model) + ". ";
   if (const coupling::Mode *first = first_that_vibrates(result.coupled_modes))
-    text += "The lowest mode of the machine has " + short_text(first->frequency_hz) + " Hz.";
+    text += "The lowest natural frequency of the machine is " + short_text(first->frequency_hz) + " Hz.";
   return text;
 }
 
@@ -124,17 +122,17 @@ std::vector<KeyNumber> key_numbers(const Result &result)
   if (result.run)
     for (const Peak &peak : main_peaks(*result.run))
       numbers.push_back({quantity_text(peak.value, peak.signal->unit),
-                         peak.signal->name + (peak.value >= 0. ? ", largest" : ", smallest")});
+                         (peak.value >= 0. ? "maximum of " : "minimum of ") + peak.signal->name});
   if (const coupling::Mode *first = first_that_vibrates(result.frame_modes))
-    numbers.push_back({short_text(first->frequency_hz) + " Hz", "lowest mode of the frame"});
+    numbers.push_back({short_text(first->frequency_hz) + " Hz", "lowest frequency of the frame"});
   else if (const coupling::Mode *lowest = first_that_vibrates(result.coupled_modes))
-    numbers.push_back({short_text(lowest->frequency_hz) + " Hz", "lowest mode of the machine"});
+    numbers.push_back({short_text(lowest->frequency_hz) + " Hz", "lowest frequency of the machine"});
   if (result.stress)
   {
     double most = 0.;
     for (const StressAt &at : result.stress->instants)
       most = std::max(most, at.peak ? at.peak->von_mises : 0.);
-    numbers.push_back({quantity_text(most, "Pa"), "equivalent stress, largest"});
+    numbers.push_back({quantity_text(most, "Pa"), "largest von Mises stress"});
   }
   if (result.run && result.run->energy.exchanged > 0.)
     numbers.push_back(

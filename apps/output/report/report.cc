@@ -56,7 +56,7 @@ std::string peaks_table(const Result &result)
 {
   if (!result.run || result.run->signals.empty())
     return "";
-  HtmlTable   table({"signal", "unit", "#largest", "#at t [s]", "#smallest", "#at t [s]", "#at the end"});
+  HtmlTable   table({"signal", "unit", "#maximum", "#time [s]", "#minimum", "#time [s]", "#final value"});
   const Noise noise = noise_of(result.run->signals);
   for (const coupling::SignalSummary &signal : result.run->signals)
   {
@@ -77,7 +77,7 @@ std::string window_sentence(const Result &result)
 {
   if (!result.run || result.run->rows.empty() || !(result.run->from > result.run->rows.front()))
     return "";
-  return "<p>Extremes count from " + short_text(result.run->from, 6) + " s on, as [output] from says.</p>\n";
+  return "<p>Extremes are evaluated from " + short_text(result.run->from, 6) + " s ([output] from).</p>\n";
 }
 
 std::string answer_section(const Result &result, bool has_view)
@@ -85,7 +85,7 @@ std::string answer_section(const Result &result, bool has_view)
   const std::string table = peaks_table(result), picture = has_view ? machine_figure(result) + peak_figure(result) : "";
   if (table.empty() && picture.empty())
     return "";
-  return section("peaks", table.empty() ? "The machine" : "The answer: peaks and when they occur",
+  return section("peaks", table.empty() ? "Machine" : "Peak values and their times",
                  window_sentence(result) + "<div class=\"row\">" + table + picture + "</div>\n");
 }
 
@@ -108,13 +108,13 @@ std::string events_section(const Result &result)
 {
   if (!result.run || result.run->events.empty())
     return "";
-  HtmlTable table({"#no.", "#t [s]", "object", "transition"});
+  HtmlTable table({"#no.", "#time [s]", "object", "event"});
   int       number = 0;
   for (const coupling::Event &event : result.run->events)
     table.add({std::to_string(++number), short_text(event.t, 7), event.name, event.kind});
   return section("events", "Events",
-                 "<p class=\"soft\">The numbers are those above the charts, where events that follow closely are short "
-                 "ticks.</p><div class=\"long\">" +
+                 "<p class=\"soft\">The numbers are those above the charts. Short ticks mark closely spaced "
+                 "events.</p><div class=\"long\">" +
                      table.scrolled_html() + "</div>\n",
                  Shown::folded);
 }
@@ -122,15 +122,15 @@ std::string events_section(const Result &result)
 /// Meaning and limits of the residual of the energy balance.
 std::string energy_statement(const coupling::EnergySummary &energy, bool has_frame)
 {
-  return "<p class=\"lead\">At no instant of the run did input, storage and dissipation disagree by more than "
+  return "<p class=\"lead\">The energy residual |input − stored − dissipated| is at most "
          "<strong>" +
          short_text(energy.residual, 3) + " J</strong>" +
          (energy.exchanged > 0.
               ? ", <strong>" + short_text(100. * energy.residual / energy.exchanged, 2) + " %</strong> of the " +
-                    short_text(energy.exchanged, 3) + " J that the motion exchanges"
+                    short_text(energy.exchanged, 3) + " J exchanged by the motion"
               : "") +
-         ".</p><p>This residual measures the error of the integration in time alone." +
-         (has_frame ? " The errors of mesh and reduction do not show in it." : "") + "</p>\n";
+         ".</p><p>It measures the error of the time integration only." +
+         (has_frame ? " It does not contain the errors of mesh and reduction." : "") + "</p>\n";
 }
 
 std::string energy_section(const Result &result, const std::vector<SignalChart> &charts)
@@ -141,11 +141,11 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
   if (energy.input == 0. && energy.stored == 0. && energy.dissipated == 0. && energy.residual == 0.)
     return "";
   Facts facts;
-  facts.quantity("input by drives", energy.input, "J");
-  facts.quantity("stored since the start", energy.stored, "J");
-  facts.quantity("dissipated, work of tools included", energy.dissipated, "J");
-  facts.quantity("exchanged by the motion", energy.exchanged, "J");
-  facts.quantity("largest residual", energy.residual, "J");
+  facts.quantity("energy input by drives", energy.input, "J");
+  facts.quantity("change of stored energy", energy.stored, "J");
+  facts.quantity("dissipated energy, including work of tools", energy.dissipated, "J");
+  facts.quantity("energy exchanged by the motion", energy.exchanged, "J");
+  facts.quantity("largest energy residual", energy.residual, "J");
   std::string html = energy_statement(energy, result.scenery.n_frame > 0) + facts.table();
   for (const SignalChart &chart : charts)
     if (chart.topic == ChartTopic::energy)
@@ -159,12 +159,13 @@ std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
 {
   const bool growing = std::any_of(modes.begin(), modes.end(), [](const auto &mode) { return mode.growth > 0.; });
   const bool refined = any_refined(modes);
-  std::vector<std::string> columns = {"#mode",   "#f [Hz]", "#damped [Hz]", "#damping ratio", "#effective mass x [kg]",
-                                      "#y [kg]", "#z [kg]"};
+  std::vector<std::string> columns = {"#mode",          "#frequency [Hz]",        "#damped frequency [Hz]",
+                                      "#damping ratio", "#effective mass x [kg]", "#y [kg]",
+                                      "#z [kg]"};
   if (growing)
-    columns.insert(columns.begin() + 4, "#grows by");
+    columns.insert(columns.begin() + 4, "#growth");
   if (refined)
-    columns.insert(columns.begin() + 2, "#refined [Hz]");
+    columns.insert(columns.begin() + 2, "#refined frequency [Hz]");
   HtmlTable table(columns);
   Noise     noise;
   for (const coupling::Mode &mode : modes)
@@ -200,7 +201,7 @@ std::string energy_shares_table(const Result &result)
 {
   if (!result.energy_shares)
     return "";
-  HtmlTable table({"#mode", "#f [Hz]", "strain energy in", "kinetic energy in"});
+  HtmlTable table({"#mode", "#frequency [Hz]", "strain energy by part", "kinetic energy by part"});
   for (std::size_t j = 0; j < result.coupled_modes.size(); ++j)
     table.add({std::to_string(j + 1), short_text(result.coupled_modes[j].frequency_hz, 6),
                strain_text(*result.energy_shares, j), kinetic_text(*result.energy_shares, j)});
@@ -209,12 +210,12 @@ std::string energy_shares_table(const Result &result)
 
 std::string pole_table(const std::vector<coupling::Pole> &poles)
 {
-  HtmlTable table({"#damped [Hz]", "#damping ratio", "#goes by", "moves most"});
+  HtmlTable table({"#damped frequency [Hz]", "#damping ratio", "#growth or decay", "dominant DOF"});
   for (const coupling::Pole &pole : poles)
     table.add({pole.vibrates() ? short_text(pole.frequency_hz(), 6) : "–",
                pole.vibrates() ? short_text(pole.damping_ratio()) : "–",
                peak("exp(" + short_text(pole.s.real()) + " t/s)", pole.s.real() > 0.), pole.moves});
-  return "<h3>With drives and controllers, at the speeds of the start</h3>" + table.html();
+  return "<h3>Poles with drives and controllers, at the initial speeds</h3>" + table.html();
 }
 
 std::string modes_section(const Result &result, bool has_view, Pictures &pictures)
@@ -229,7 +230,7 @@ std::string modes_section(const Result &result, bool has_view, Pictures &picture
                             shape_svg(result, words + mode_heading(j, modes[j]), modes[j]));
       html += figure(pictures.back().second);
     }
-    return html.empty() ? "" : folded("Shapes by coordinates", "<div class=\"bars\">" + html + "</div>\n");
+    return html.empty() ? "" : folded("Mode shapes by DOF", "<div class=\"bars\">" + html + "</div>\n");
   };
   std::string html;
   if (!result.coupled_modes.empty())
@@ -240,12 +241,12 @@ std::string modes_section(const Result &result, bool has_view, Pictures &picture
   if (!result.poles.empty())
     html += pole_table(result.poles);
   if (!result.frame_modes.empty())
-    html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes, result.model.frequency_limit) +
+    html += "<h3>Supported frame alone</h3>" + mode_table(result.frame_modes, result.model.frequency_limit) +
             (!result.scenery.has_skin() ? bars(result.frame_modes, "frame", "Frame ")
              : has_view                 ? mode_pictures(result.frame_modes, "frame", most_mode_pictures)
                                         : "");
   const bool asked = !result.run && result.answers.empty();
-  return section("modes", "Natural frequencies and modes", html, asked ? Shown::open : Shown::folded);
+  return section("modes", "Natural frequencies and mode shapes", html, asked ? Shown::open : Shown::folded);
 }
 
 /// Numerical damping and period error of each mode, the lowest first; modes above only follow the drives.
@@ -258,37 +259,37 @@ std::string accuracy_table(const coupling::RunResult &run)
   for (const coupling::ModeAccuracy &mode : run.accuracy)
     if (shown.size() < most_accuracy_rows || mode.unstable)
       shown.push_back(mode);
-  return "<h3>Modes as " + escape_xml(run.method) + " carries them</h3>" + table_of(shown).html();
+  return "<h3>Numerical damping and period error of " + escape_xml(run.method) + "</h3>" + table_of(shown).html();
 }
 
 std::string numerics_section(const Result &result)
 {
   const ModelFacts &m = result.model;
   Facts             model;
-  model.count("coordinates integrated", m.dofs);
-  model.count("interface coordinates", m.interface);
-  model.count("internal modes kept", m.modes);
-  model.count("measures of nonlinear elements", m.nonlinear);
-  model.count("coordinates of the frame unreduced", m.frame_dofs);
+  model.count("DOFs of the time integration", m.dofs);
+  model.count("interface DOFs", m.interface);
+  model.count("retained internal modes", m.modes);
+  model.count("local coordinates of nonlinear elements", m.nonlinear);
+  model.count("DOFs of the unreduced frame", m.frame_dofs);
   model.count("finite elements", m.cells);
   model.quantity("mass of the frame", m.frame_mass, "kg");
-  model.quantity("estimated error of frequencies by reduction", 100. * m.frequency_error, "%");
-  model.quantity("static load the modes do not carry", 100. * m.static_residual, "%");
+  model.quantity("estimated frequency error due to reduction", 100. * m.frequency_error, "%");
+  model.quantity("static load not represented by the modes", 100. * m.static_residual, "%");
 
   Facts work;
   if (result.run)
   {
     const coupling::WorkCounts &w = result.run->work;
     work.count("steps", w.steps);
-    work.count("steps rejected", w.rejected);
+    work.count("rejected steps", w.rejected);
     work.count("Newton iterations", w.newton);
     work.quantity("Newton iterations per step", w.steps > 0 ? static_cast<double>(w.newton) / w.steps : std::nan(""),
                   "");
     work.count("factorisations", w.factorisations);
-    work.count("evaluations of the elements", w.evaluations);
+    work.count("element evaluations", w.evaluations);
     if (w.chatter > 0)
-      work.count("steps of chatter, gone over", w.chatter);
-    work.quantity("time per step",
+      work.count("steps with chatter, events not located", w.chatter);
+    work.quantity("wall time per step",
                   w.steps > 0 && result.run->wall_s > 0. ? 1e6 * result.run->wall_s / w.steps : std::nan(""), "µs");
   }
   for (const auto &[phase, seconds] : result.wall_s)
@@ -296,13 +297,13 @@ std::string numerics_section(const Result &result)
 
   Facts page;
   for (const PageLibrary &library : page_libraries())
-    page.add("this page: " + library.name, library.version + ", " + library.source);
+    page.add("page library: " + library.name, library.version + ", " + library.source);
   std::string html = "<div class=\"row\">" + model.table() + work.table() + page.table() + "</div>";
   if (!std::isnan(m.static_residual))
     html += "<p class=\"soft\">" + escape_xml(static_residual_words) + "</p>\n";
   if (const auto lines = frame_text(m); !lines.empty())
   {
-    html += "<h3>The frame</h3><ul>";
+    html += "<h3>Frame</h3><ul>";
     for (const std::string &line : lines)
       html += "<li>" + escape_xml(line) + "</li>";
     html += "</ul>\n";
@@ -318,7 +319,7 @@ std::string numerics_section(const Result &result)
     html += "<h3>Settings</h3><pre>" + escape_xml(result.settings) + "</pre>\n";
   if (result.run)
     html += accuracy_table(*result.run);
-  return section("numerics", "Model and work", html, Shown::folded);
+  return section("numerics", "Model and computation", html, Shown::folded);
 }
 
 /// Sections in their order, those without content left out, and the links to them.
@@ -364,8 +365,8 @@ Report make_report(const Result &result)
 
   Body body(result, report.charts);
   body.add(Section::Place::first);
-  body.add(answer_section(result, has_view), "peaks", "Answer");
-  body.add(section("view", "The machine to turn", view), "view", "Machine");
+  body.add(answer_section(result, has_view), "peaks", "Peaks");
+  body.add(section("view", "Interactive 3-D view", view), "view", "Machine");
   body.add(Section::Place::course);
   body.add(Section::Place::results);
   body.add(stress_section(result, has_view), "stress", "Stress");
@@ -378,14 +379,14 @@ Report make_report(const Result &result)
   body.add(energy_section(result, charts), "energy", "Energy");
   body.add(Section::Place::frequencies);
   body.add(modes_section(result, has_view, report.charts), "modes", "Modes");
-  body.add(numerics_section(result), "numerics", "Model and work");
+  body.add(numerics_section(result), "numerics", "Model and computation");
 
   report.html = page_html(
       {result.scene, result.description,
        overview(result) + note_box(all_warnings(result), "Warnings") + "<nav>" + body.links + "</nav>\n" + body.html,
        "Computed with gestell " + escape_xml(result.version) +
-           ". All numbers stand in full precision in summary.json and the .csv files beside this page." +
-           (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : ""),
+           ". Full-precision values: summary.json and the .csv files next to this page." +
+           (result.run && !result.run->picture_states.empty() ? " ParaView: motion.pvd." : ""),
        "",
        page_scripts(body.html.find("<figure class=\"live\"") != std::string::npos,
                     body.html.find("<div class=\"machine\"") != std::string::npos)});

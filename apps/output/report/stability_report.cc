@@ -29,22 +29,21 @@ std::string modes_section(const StabilityStudy &study)
 {
   if (study.modes.empty())
     return "";
-  return section("modes", "The modes under " + escape_xml(study.method),
+  return section("modes", "Numerical damping and period error of " + escape_xml(study.method),
                  table_of(study.modes).html() +
-                     "<p class=\"soft\">Numerical damping comes beyond the physical one; a period error above zero "
-                     "means too slow. Modes that do not vibrate are left out.</p><h3>Other methods at this step</h3>" +
+                     "<p class=\"soft\">Numerical damping adds to the physical damping. A positive period error means "
+                     "too slow. Modes without vibration are not listed.</p><h3>Other methods at this step</h3>" +
                      table_of(study.verdicts).html());
 }
 
 std::string maps_section(const StabilityStudy &study)
 {
-  std::string html = "<p>The oscillator x″ + 2ζω x′ + ω² x = 0 with "
-                     "the step h. Above the line at 1 a mode grows.";
+  std::string html =
+      "<p>Test oscillator x″ + 2ζω x′ + ω² x = 0 with step h. A mode with a spectral radius above 1 grows.";
   if (!study.modes.empty())
-    html += " Ticks at the bottom: modes of the frame (blue) and of the machine with closed contacts (orange) at the "
-            "scene's step, those below omega h = 0.01 left out; under exact propagation the frame's modes have no "
-            "error. What "
-            "has no damping or period error of its own has no curve there.";
+    html += " Ticks: modes of the frame (blue) and of the machine with closed contacts (orange) at the scene's step, "
+            "from omega h = 0.01. Exact propagation has no error for modes of the frame. Methods without numerical "
+            "damping or period error have no curve.";
   html += "</p>\n";
   bool first = true;
   for (const auto &[zeta, charts] : study.charts)
@@ -56,16 +55,16 @@ std::string maps_section(const StabilityStudy &study)
     html += "</details>\n";
     first = false;
   }
-  return section("maps", "Maps of the methods", html);
+  return section("maps", "Stability maps of the methods", html);
 }
 
 std::string intervals_section(const StabilityStudy &study)
 {
-  return section("intervals", "Where each method grows",
-                 table_of(study.intervals).html() +
-                     "<p class=\"soft\">Methods that are not listed grow nowhere. Exact propagation stands "
-                     "here with the force of a closed contact on a free mass; modes of the base system it "
-                     "carries exactly.</p>");
+  return section(
+      "intervals", "Unstable intervals of the methods",
+      table_of(study.intervals).html() +
+          "<p class=\"soft\">Methods that are not listed are stable everywhere. Exact propagation is listed for the "
+          "force of a closed contact on a free mass. It has no error for modes of the base system.</p>");
 }
 
 } // namespace
@@ -97,7 +96,7 @@ std::string stability_page(const StabilityStudy &study)
   return page_html({study.title, "",
                     note_box(study.notes) + modes_section(study) + maps_section(study) + intervals_section(study),
                     "Computed with gestell " + escape_xml(study.version) +
-                        ". All numbers stand in full precision in the .csv files beside this page.",
+                        ". Full-precision values: the .csv files next to this page.",
                     "details{margin:.6rem 0}summary{cursor:pointer;font-weight:600}"});
 }
 

@@ -20,14 +20,13 @@ std::string titled(const std::string &title, const std::string &caption, const s
 
 std::string loads_html(const std::vector<LoadDuration> &loads)
 {
-  std::string html = loads.empty() ? "" : "<h3>Loads against the periods of modes</h3>";
+  std::string html = loads.empty() ? "" : "<h3>Load durations relative to mode periods</h3>";
   for (const LoadDuration &load : loads)
     html += "<p>" + escape_xml(load_text(load)) + "</p>" + (load.modes.empty() ? "" : table_of(load.modes).html());
-  return loads.empty()
-             ? ""
-             : html + "<p class=\"soft\">Times over the period T = 1/f of a mode. The fall factor compares the "
-                      "amplitude that the fall leaves with that of a sudden one; the energy is what the fall "
-                      "leaves in the mode, undamped and linear.</p>\n";
+  return loads.empty() ? ""
+                       : html + "<p class=\"soft\">Times are relative to the period T = 1/f of a mode. The residual "
+                                "vibration ratio is the amplitude after the fall relative to that after a sudden fall. "
+                                "The energy is that of the linear, undamped mode after the fall.</p>\n";
 }
 
 } // namespace
@@ -37,20 +36,20 @@ std::string story_section(const Result &result)
   if (!result.story)
     return "";
   const RunStory &story = *result.story;
-  return section(
-      "story", "Events, loads and modes",
-      titled("Event log", "Displacements and forces of the object of each located event.", story.events) +
-          titled("Extremes of forces and modes",
-                 "Share of the mode that makes most of the force's change between the turning points of "
-                 "the swing about an extreme, and the sum over all modes. A mode carries a swing of which it "
-                 "makes most and whose frequency it has.",
-                 story.extremes) +
-          loads_html(story.loads) +
-          titled("Cycles through a play",
-                 "Between two events of one kind in which the deflection crosses the whole play: frequency "
-                 "in the run, and that of the closed machine with the stiffness of the first harmonic.",
-                 story.plays),
-      Shown::folded);
+  return section("story", "Events, loads and modes",
+                 titled("Event log", "Displacement and force of the object at each located event.", story.events) +
+                     titled("Force extremes and their dominant modes",
+                            "The share is the contribution of the dominant mode to the change of the force between the "
+                            "turning points around an extreme. The sum is over all modes. A mode explains the "
+                            "oscillation if its share is near 1 and its frequency agrees with the observed one.",
+                            story.extremes) +
+                     loads_html(story.loads) +
+                     titled("Oscillations through a clearance",
+                            "Oscillation between two events of the same kind in which the deflection crosses the whole "
+                            "clearance. The observed frequency is compared with the frequency by the describing "
+                            "function (stiffness of the first harmonic).",
+                            story.plays),
+                 Shown::folded);
 }
 
 } // namespace gestell::apps

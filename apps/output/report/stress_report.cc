@@ -20,17 +20,18 @@ std::string time_text(double t)
 std::string table_html(const StressResult &stress, const DisplayUnit &unit)
 {
   const auto value = [&](double x) { return short_text(x * unit.factor); };
-  HtmlTable  table({"instant", "#t [s]", "#largest σ<sub>v</sub> [" + unit.unit + "]", "at x, y, z [m]", "",
-                    "#σ<sub>1</sub> [" + unit.unit + "]", "#σ<sub>2</sub>", "#σ<sub>3</sub>", "#elements disagree"});
+  HtmlTable  table({"instant", "#time [s]", "#largest σ<sub>v</sub> [" + unit.unit + "]", "x, y, z [m]",
+                    "adjacent rigid surface", "#σ<sub>1</sub> [" + unit.unit + "]", "#σ<sub>2</sub>", "#σ<sub>3</sub>",
+                    "#disagreement of elements"});
   for (const StressAt &at : stress.instants)
     for (const auto *place : {&at.peak, &at.beside_rigid})
       if (*place)
       {
         const auto &[where, von_mises, principal, disagreement, nearby] = **place;
         table.add({at.label, short_text(at.t, 6), peak(value(von_mises)),
-                   "(" + short_text(where[0]) + ", " + short_text(where[1]) + ", " + short_text(where[2]) + ")",
-                   nearby.empty() ? "" : "beside " + nearby, value(principal.values[0]), value(principal.values[1]),
-                   value(principal.values[2]), short_text(100. * disagreement, 2) + " %"});
+                   "(" + short_text(where[0]) + ", " + short_text(where[1]) + ", " + short_text(where[2]) + ")", nearby,
+                   value(principal.values[0]), value(principal.values[1]), value(principal.values[2]),
+                   short_text(100. * disagreement, 2) + " %"});
       }
   return table.html();
 }
@@ -38,21 +39,20 @@ std::string table_html(const StressResult &stress, const DisplayUnit &unit)
 /// Meaning and limits of the stresses.
 std::string statement(const StressResult &stress)
 {
-  std::string html =
-      "<p>Equivalent stress after von Mises at the skin of the frame, from the static deflection under the "
-      "forces at the interfaces and the weight, and the vibration in the modes kept.";
+  std::string html = "<p>Von Mises stress at the skin of the frame: static deflection under interface forces and "
+                     "weight, plus vibration in the retained modes.";
   if (stress.n_states > 0)
-    html += " The largest one was looked for at all " + std::to_string(stress.points.size()) +
-            " points of the skin and in " + std::to_string(stress.n_states) + " states of the run, " +
-            short_text(stress.step, 3) + " s apart: among these none is larger.";
+    html += " The maximum is the largest value at all " + std::to_string(stress.points.size()) +
+            " points of the skin in " + std::to_string(stress.n_states) + " states of the run, " +
+            short_text(stress.step, 3) + " s apart.";
   const auto nearby = [](const StressAt &at) { return at.beside_rigid.has_value(); };
   if (std::any_of(stress.instants.begin(), stress.instants.end(), nearby))
-    html += " Rows “beside” are elements at surfaces that are held rigid: at their rims the stress has no limit as "
-            "the mesh is refined, so that it says more about the mesh than about the frame.";
+    html += " Rows with an adjacent rigid surface list the elements next to a support or interface: at its rim the "
+            "stress grows without limit as the mesh is refined, so the value depends on the mesh.";
   const auto coarse = [](const StressAt &at) { return at.peak && at.peak->disagreement > resolved_disagreement; };
-  html += " The last column shows how much neighbouring elements disagree about the stress there.";
+  html += " The last column is the relative disagreement of neighbouring elements.";
   if (std::any_of(stress.instants.begin(), stress.instants.end(), coarse))
-    html += " <strong>Above some 10 % the mesh is too coarse for a value of stress: make it finer there.</strong>";
+    html += " <strong>Above about 10 % the mesh is too coarse for a stress value: refine it there.</strong>";
   return html + "</p>\n";
 }
 

@@ -61,7 +61,8 @@ std::string points_json(const WorkPrecision &chart)
 std::string choices(const WorkPrecision &chart, int model)
 {
   const std::vector<WorkSeries> series = work_series(chart);
-  HtmlTable table({"error", "our fastest", "setting", "#CPU [ms]", "fastest peer", "#CPU [ms]", "#ratio"});
+  HtmlTable table({"error", "fastest Gestell method", "setting", "#CPU time [ms]", "fastest other solver",
+                   "#CPU time [ms]", "#ratio of CPU times"});
   for (const double target : chart.targets)
   {
     const auto own  = best_at_error(chart, series, model, true, target),
@@ -69,7 +70,7 @@ std::string choices(const WorkPrecision &chart, int model)
     const auto cpu  = [](const std::optional<BestSeries> &best)
     { return best ? (best->at.bound ? "≤ " : "") + short_text(1e3 * best->at.cpu_s, 3) : std::string("–"); };
     const auto name = [](const std::optional<BestSeries> &best)
-    { return best ? best->series->method + (best->series->events ? ", events" : "") : std::string("–"); };
+    { return best ? best->series->method + (best->series->events ? ", events located" : "") : std::string("–"); };
     table.add({text_of(target), name(own), own ? setting_words(chart.points[own->at.point]) : "–", cpu(own), name(peer),
                cpu(peer), own && peer ? short_text(peer->at.cpu_s / own->at.cpu_s, 3) : "–"});
   }
@@ -78,11 +79,12 @@ std::string choices(const WorkPrecision &chart, int model)
 
 std::string front(const WorkPrecision &chart, int model)
 {
-  HtmlTable table({"method", "events", "setting", "#error", "#CPU [ms]", "#steps", "#Newton", "#factorisations"});
+  HtmlTable table(
+      {"method", "events", "setting", "#error", "#CPU time [ms]", "#steps", "#Newton iterations", "#factorisations"});
   for (const std::size_t i : pareto_front(chart, model))
   {
     const WorkPoint &p = chart.points[i];
-    table.add({p.method, p.events ? "located" : "passed over", setting_words(p), text_of(p.error),
+    table.add({p.method, p.events ? "located" : "not located", setting_words(p), text_of(p.error),
                short_text(1e3 * p.cpu_s), std::to_string(p.work.steps), std::to_string(p.work.newton),
                std::to_string(p.work.factorisations)});
   }
@@ -92,19 +94,18 @@ std::string front(const WorkPrecision &chart, int model)
 std::string model_section(const WorkPrecision &chart, int m)
 {
   const WorkModel  &model = chart.models[m];
-  const std::string name  = std::to_string(model.coordinates) + " coordinates" +
-                           (model.modes > 0 ? ", " + std::to_string(model.modes) + " of them modes" : "");
+  const std::string name  = std::to_string(model.coordinates) + " DOFs" +
+                           (model.modes > 0 ? ", " + std::to_string(model.modes) + " of them modal" : "");
   std::string html = "<section><h2>" + name + "</h2>\n<p>Reference: " + escape_xml(model.reference) +
-                     ". Its own error is " + text_of(model.reference_error) + "; errors below " +
+                     ", with an error of " + text_of(model.reference_error) + ". Errors below " +
                      text_of(10. * model.reference_error) + " are not resolved.</p>\n";
   if (std::isfinite(model.truncation))
-    html += "<p>The modes left out against the largest model are worth " + text_of(model.truncation) + ".</p>\n";
-  html +=
-      "<h3>Fastest at an error</h3>\n" + choices(chart, m) +
-      "<p class=\"soft\">CPU times lie on the line between two runs of a method; every finer run of it stays below "
-      "the error.</p>\n<h3>Pareto front</h3>\n<p class=\"soft\">No other run is both faster and more accurate than one "
-      "of these.</p>\n" +
-      front(chart, m) + "<noscript>" + work_precision_svg(chart, m, WorkMeasure::cpu) + "</noscript></section>\n";
+    html += "<p>Error due to truncated modes, relative to the largest model: " + text_of(model.truncation) + ".</p>\n";
+  html += "<h3>Fastest method for a required error</h3>\n" + choices(chart, m) +
+          "<p class=\"soft\">CPU times are interpolated between two runs of a method. All finer runs of the method are "
+          "below the error.</p>\n<h3>Pareto front</h3>\n<p class=\"soft\">Runs for which no other run is both faster "
+          "and more accurate.</p>\n" +
+          front(chart, m) + "<noscript>" + work_precision_svg(chart, m, WorkMeasure::cpu) + "</noscript></section>\n";
   return html;
 }
 
@@ -113,8 +114,8 @@ std::string failures(const WorkPrecision &chart)
   HtmlTable table({"method", "events", "setting", "reason"});
   for (const WorkPoint &p : chart.points)
     if (!p.failure.empty())
-      table.add({p.method, p.events ? "located" : "passed over", setting_words(p), p.failure});
-  return table.is_empty() ? "" : section("failures", "Runs given up", table.scrolled_html());
+      table.add({p.method, p.events ? "located" : "not located", setting_words(p), p.failure});
+  return table.is_empty() ? "" : section("failures", "Failed runs", table.scrolled_html());
 }
 
 } // namespace
@@ -125,17 +126,17 @@ std::string work_precision_page(const WorkPrecision &chart)
   for (const std::string &signal : chart.signals)
     signals += (signals.empty() ? "" : ", ") + signal;
   std::string body =
-      "<p>Error is the root mean square over " + std::to_string(chart.n_samples) + " instants from " +
-      text_of(chart.begin, 4) + " s to " + text_of(chart.end, 4) + " s of " + escape_xml(signals) +
-      ", each scaled by its largest magnitude in the reference. Work is the CPU time of the stepping thread" +
-      (chart.peers.empty() ? std::string() : "; peers are " + escape_xml(chart.peers) + " on the identical model") +
-      ".</p>\n" + note_box(chart.notes) + "<div id=\"chart\"></div>\n<script>const work = " + points_json(chart) +
+      "<p>Error: root mean square of " + escape_xml(signals) + " over " + std::to_string(chart.n_samples) +
+      " instants from " + text_of(chart.begin, 4) + " s to " + text_of(chart.end, 4) +
+      " s, each signal scaled by its largest magnitude in the reference. Work: CPU time of the stepping thread." +
+      (chart.peers.empty() ? std::string() : " Other solvers, on the same model: " + escape_xml(chart.peers) + ".") +
+      "</p>\n" + note_box(chart.notes) + "<div id=\"chart\"></div>\n<script>const work = " + points_json(chart) +
       ";\n" + work_precision_script + "</script>\n";
   for (std::size_t m = 0; m < chart.models.size(); ++m)
     body += model_section(chart, int(m));
   return page_html({"Work and precision: " + chart.scene, chart.description, body + failures(chart),
                     "Gestell " + escape_xml(chart.version) +
-                        ". All runs are in chart.csv, the settings offered in chart_settings.toml.",
+                        ". Files: chart.csv (all runs), chart_settings.toml (recommended settings).",
                     work_precision_style});
 }
 

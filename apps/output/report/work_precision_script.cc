@@ -32,7 +32,7 @@ const char *const work_precision_script = R"js(
   'use strict';
   const box = document.getElementById('chart'), name = 'http://www.w3.org/2000/svg';
   const measures = { cpu: 'CPU time of stepping', total: 'CPU time with set-up', steps: 'steps', newton: 'Newton iterations',
-                     factorisations: 'factorisations', solves: 'linear solves', evaluations: 'evaluations of forces' };
+                     factorisations: 'factorisations', solves: 'linear solves', evaluations: 'force evaluations' };
   const state = { model: work.models.length - 1, measure: 'cpu', events: 'both', hidden: new Set(), front: true };
   work.points.forEach(p => { p.total = p.cpu + p.setup; });
   const methods = [];
@@ -55,16 +55,16 @@ const char *const work_precision_script = R"js(
 
   const tools = make('div', { class: 'tools' }, box);
   if (work.models.length > 1)
-    choice(tools, 'model', work.models.map((m, i) => [String(i), m.coordinates + ' coordinates, ' + m.modes + ' modes']), state.model, v => { state.model = +v; });
-  choice(tools, 'work in', Object.entries(measures), state.measure, v => { state.measure = v; });
-  choice(tools, 'events', [['both', 'located and passed over'], ['yes', 'located'], ['no', 'passed over']], 'both', v => { state.events = v; });
+    choice(tools, 'model', work.models.map((m, i) => [String(i), m.coordinates + ' DOFs, ' + m.modes + ' modes']), state.model, v => { state.model = +v; });
+  choice(tools, 'work measured by', Object.entries(measures), state.measure, v => { state.measure = v; });
+  choice(tools, 'events', [['both', 'located and not located'], ['yes', 'located'], ['no', 'not located']], 'both', v => { state.events = v; });
   const frontLabel = make('label', {}, tools), frontBox = make('input', { type: 'checkbox', checked: '' }, frontLabel);
   frontLabel.append(' Pareto front');
   frontBox.addEventListener('change', () => { state.front = frontBox.checked; draw(); });
   const button = (text, act) => make('button', { type: 'button' }, tools, text).addEventListener('click', () => { act(); boxes(); draw(); });
   button('all', () => state.hidden.clear());
   button('none', () => methods.forEach(m => state.hidden.add(m.method)));
-  button('those on the front', () => {
+  button('Pareto front only', () => {
     const best = new Set(front().map(p => p.method));
     state.hidden.clear();
     methods.forEach(m => { if (!best.has(m.method)) state.hidden.add(m.method); });
@@ -73,7 +73,7 @@ const char *const work_precision_script = R"js(
   const board = make('div', { class: 'board' }, box), plot = make('div', { class: 'plot' }, board);
   const list = make('div', { class: 'methods' }, board), tip = make('div', { class: 'tip', hidden: '' }, board);
   const chosen = make('div', { class: 'chosen' }, box);
-  make('p', { class: 'soft' }, chosen, 'Full lines: events located; dashed: passed over. Click a run of ours to see the lines that make a scene use it.');
+  make('p', { class: 'soft' }, chosen, 'Solid lines: events located; dashed: events not located. Click a Gestell run to see its [run] settings.');
 
   function boxes() {
     list.textContent = '';
@@ -82,7 +82,7 @@ const char *const work_precision_script = R"js(
       if (m.family !== family) {
         family = m.family;
         const head = make('div', { class: 'family' }, list, family), own = methods.filter(x => x.family === m.family);
-        head.title = 'show or hide all of them';
+        head.title = 'show or hide this family';
         head.addEventListener('click', () => {
           const any = own.some(x => !state.hidden.has(x.method));
           own.forEach(x => any ? state.hidden.add(x.method) : state.hidden.delete(x.method));
@@ -199,7 +199,7 @@ const char *const work_precision_script = R"js(
     r('CPU time', short(1e3 * p.cpu) + ' ms, set-up ' + short(1e3 * p.setup) + ' ms');
     r('steps', p.steps + (p.rejected ? ', ' + p.rejected + ' rejected' : ''));
     r('Newton', p.newton); r('solves', p.solves); r('factorisations', p.factorisations); r('evaluations', p.evaluations);
-    r('events', p.located + (p.events ? ' located' : ' passed over'));
+    r('events', p.located + (p.events ? ' located' : ' not located'));
   }
   function tell(p) {
     tip.textContent = '';

@@ -49,7 +49,7 @@ std::vector<coupling::Finding> all_findings(const Result &result)
   if (result.run && !result.run->failure.empty())
     add(early_end(*result.run));
   if (result.run && result.run->interrupted)
-    add({Severity::warning, "interrupted", "", "The computation was interrupted; the results end where it stopped."});
+    add({Severity::warning, "interrupted", "", "The computation was interrupted; the results end at that time."});
   for (const std::string &warning : result.warnings)
     add(of_the_scene(warning));
   if (result.run)

@@ -62,7 +62,7 @@ std::string rung_text(const SizeRung &rung)
        << (rung.method +
            (rung.tolerance > 0. ? " " + short_text(rung.tolerance, 2) : " " + short_text(rung.step, 3) + " s"))
        << std::right << std::setw(9) << short_text(rung.cpu_s, 2) << std::setw(12)
-       << (std::isfinite(rung.share) ? short_text(rung.share, 2) : "not known") << "  " << rung.worst;
+       << (std::isfinite(rung.share) ? short_text(rung.share, 2) : "unknown") << "  " << rung.worst;
   return text.str();
 }
 
@@ -71,10 +71,10 @@ std::string forecast_text(const SizeForecast &forecast)
   std::ostringstream text;
   text << "forecast:";
   if (forecast.coordinates > 0.)
-    text << " a model of " << short_text(forecast.coordinates, 2) << " coordinates,";
-  text << ' ' << short_text(forecast.model_cpu_s, 2) << " CPU s from CAD to the end of its run; with its errors "
-       << short_text(forecast.cpu_s, 2) << " CPU s, of which " << short_text(forecast.spent_cpu_s, 2)
-       << " are counted so far";
+    text << " a model with " << short_text(forecast.coordinates, 2) << " DOFs,";
+  text << ' ' << short_text(forecast.model_cpu_s, 2) << " CPU s from CAD to the end of its run; "
+       << short_text(forecast.cpu_s, 2) << " CPU s including its error estimates, "
+       << short_text(forecast.spent_cpu_s, 2) << " CPU s of them so far";
   return text.str();
 }
 
@@ -94,43 +94,43 @@ std::string size_text(const SizeResult &size)
        << (size.met ? "within " : "NOT within ") << short_text(100. * size.tolerance, 3) << " %"
        << (size.met ? "" : ": " + size.stopped) << '\n';
   if (const SizeRung &rung = size.ladder[size.chosen]; rung.cells != size.ladder.front().cells)
-    text << (rung.cells == "swept"    ? "plates are swept: frame.mesh.plates = \"swept\"\n"
-             : rung.cells == "curved" ? "sides of cells follow the geometry: frame.mesh.curved = true\n"
+    text << (rung.cells == "swept"    ? "plates are meshed by sweeping: frame.mesh.plates = \"swept\"\n"
+             : rung.cells == "curved" ? "element edges follow the geometry: frame.mesh.curved = true\n"
                                       : "");
   if (!size.proof.empty())
-    text << "proof: against " << size.finer << '\n';
+    text << "verification: compared with " << size.finer << '\n';
   else if (!size.finer.empty())
-    text << "no proof: " << size.finer << '\n';
+    text << "no verification: " << size.finer << '\n';
   for (const SizeProof &proof : size.proof)
     text << "  " << proof.output << ' ' << short_text(proof.value, 6) << ", finer " << short_text(proof.finer, 6) << ' '
          << proof.unit << '\n';
   if (!size.all.empty())
   {
-    text << "all " << size.all.size() << " models tried: ";
+    text << "all " << size.all.size() << " models examined: ";
     if (const SizeRung *cheapest = cheapest_of(size))
     {
       const double chosen = size.all[size.chosen_of_all].cpu_s;
-      text << "the cheapest that stays within the tolerance against the finer one takes "
-           << short_text(cheapest->cpu_s, 3) << " CPU s, the chosen one " << short_text(chosen, 3) << ": "
-           << short_text(chosen / cheapest->cpu_s, 3) << " times; size_all.csv\n";
+      text << "the cheapest within the tolerance of the finer model takes " << short_text(cheapest->cpu_s, 3)
+           << " CPU s, the chosen one " << short_text(chosen, 3) << " CPU s ("
+           << short_text(chosen / cheapest->cpu_s, 3) << " times as much); see size_all.csv\n";
     }
     else
-      text << "none stays within the tolerance against the finer one; size_all.csv\n";
+      text << "none is within the tolerance of the finer model; see size_all.csv\n";
   }
   for (const std::string &what : size.skipped)
     text << "not computed: " << what << '\n';
   for (const std::string &what : size.left_out)
-    text << "may be left out: " << what << '\n';
+    text << "can be omitted: " << what << '\n';
   for (const std::string &what : size.missing)
-    text << "missing: " << what << '\n';
+    text << "possibly missing: " << what << '\n';
   if (!size.unasked.empty())
   {
-    text << "not asked, as all would take more than ten runs of the chosen model (--exhaustive asks): ";
+    text << "not examined, because the cost would exceed ten runs of the chosen model (use --exhaustive): ";
     for (std::size_t i = 0; i < size.unasked.size(); ++i)
       text << (i > 0 ? ", " : "") << size.unasked[i];
     text << '\n';
   }
-  text << "cost: " << short_text(size.cpu_s, 3) << " CPU s, " << short_text(size.runs(), 2)
+  text << "cost: " << short_text(size.cpu_s, 3) << " CPU s, as much as " << short_text(size.runs(), 2)
        << " runs of the chosen model with its preparation\n";
   return text.str();
 }

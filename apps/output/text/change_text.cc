@@ -16,7 +16,7 @@ std::string change_text(double here, double there)
   if (here == 0.)
     return "";
   if (here * there < 0.)
-    return "of the other sign";
+    return "opposite sign";
   const double     more     = there / here - 1.;
   constexpr double the_same = 1e-9; // rounding of runs
   if (std::abs(more) < the_same)

@@ -1,5 +1,6 @@
 #include "apps/output/text/html.h"
 
+#include "apps/output/text/page_language.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
@@ -193,12 +194,12 @@ std::string Headline::html() const
 std::string page_html(const Page &page)
 {
   const std::string title = escape_xml(page.title);
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+  return in_page_language("<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><meta name=\"viewport\" "
          "content=\"width=device-width, initial-scale=1\"><title>" +
          title + "</title><style>" + report_style + page.more_style + "</style></head>\n<body>\n<header><h1>" + title +
          "</h1>\n" + (page.lead.empty() ? "" : "<p class=\"lead\">" + escape_xml(page.lead) + "</p>\n") +
          "</header>\n" + page.body + "<footer>" + page.footer + "</footer>\n" + page.scripts +
-         (page.body.find("<details") != std::string::npos ? fold_script : "") + "</body>\n</html>\n";
+         (page.body.find("<details") != std::string::npos ? fold_script : "") + "</body>\n</html>\n");
 }
 
 HtmlTable::HtmlTable(const std::vector<std::string> &titles)

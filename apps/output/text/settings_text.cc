@@ -12,15 +12,14 @@ std::string settings_text(const coupling::RunOptions &run)
   text << coupling::method_name(method) << ", ";
   if (method.tolerance > 0.)
   {
-    text << "step controlled to a tolerance of " << method.tolerance;
+    text << "step control with tolerance " << method.tolerance;
     if (method.step > 0.)
       text << ", at most " << method.step << " s";
   }
   else
     text << "fixed step " << method.step << " s";
   text << ", from " << run.begin << " s to " << run.end << " s; "
-       << (run.events ? "events located, the integration restarts at each of them"
-                      : "events are stepped over and reported afterwards");
+       << (run.events ? "events located, with a restart at each" : "events detected after the step");
   return text.str();
 }
 

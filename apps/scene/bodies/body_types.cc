@@ -99,7 +99,7 @@ std::vector<BodyRequest> carriers_first(const std::vector<BodyRequest> &bodies)
       for (const auto &body : bodies)
         if (!done(body.name))
           throw std::invalid_argument(body.place + ": is carried by '" + body.carrier +
-                                      "', which it carries itself; let one of them stand on the frame or the ground");
+                                      "', which in turn is carried by it; put one of them on the frame or the ground");
   }
   return sorted;
 }

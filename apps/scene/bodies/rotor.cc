@@ -43,7 +43,7 @@ std::optional<UnbalanceRequest> read_unbalance(const SceneTable &table)
 void check_unbalance(const SceneTable &table, const BodyRequest &body)
 {
   if (const double U = body.unbalance ? body.unbalance->amount : 0.; U * U > body.mass * body.inertia && body.mass > 0.)
-    throw table.error("its unbalance of " + short_text(U) + " kg m puts its " + short_text(body.mass) + " kg " +
+    throw table.error("the unbalance of " + short_text(U) + " kg m puts its " + short_text(body.mass) + " kg " +
                       short_text(U / body.mass) + " m off its axis, about which it would have at least " +
                       short_text(U * U / body.mass) + " kg m^2; inertia is " + short_text(body.inertia) + " kg m^2");
 }

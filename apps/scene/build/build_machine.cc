@@ -72,7 +72,7 @@ void add_joint(coupling::MachineModel &machine, const JointRequest &joint)
   JointEquations   equations(pair, directed, carrier_of(joint, pair));
   type.demand(equations, joint);
   if (equations.list.empty())
-    throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
+    throw std::invalid_argument("constrains nothing: neither body has a DOF in the constrained directions");
   Pair felt = pair;
   equations.leave_out_idle(felt);
   if (joint.compliance)
@@ -115,8 +115,8 @@ void attach_between(coupling::MachineModel &machine, const ElementRequest &eleme
   std::vector<RelativeMeasure> measures;
   const coupling::Body        *planar = pair.planar();
   if (request.about && planar && std::abs(vector(planar->axis).dot(vector(*request.about))) < 1. - 1e-9)
-    throw std::invalid_argument("its axis must stand across the plane of \"" + planar->name +
-                                "\", which turns about its normal only");
+    throw std::invalid_argument("its axis must be normal to the plane of \"" + planar->name +
+                                "\", which rotates about its normal only");
   for (const Vector3 &a : request.along)
     measures.push_back(seen_from_first(vector(a)));
   if (request.about)
@@ -167,9 +167,9 @@ void refuse_carried_round(const coupling::MachineModel &machine, const BodyReque
   for (const coupling::Body &body : machine.bodies())
     if (body.name == rotor.carrier && body.kind != coupling::BodyKind::slider &&
         body.kind != coupling::BodyKind::point && dot(cross(arm, body.axis), cross(arm, body.axis)) > 0.)
-      throw std::invalid_argument("the unbalance lies beside \"" + rotor.carrier +
-                                  "\", which rotates through large angles and would carry it round; put "
-                                  "unbalance_position on its axis, or the rotor on a body of its own");
+      throw std::invalid_argument("the unbalance is off the axis of \"" + rotor.carrier +
+                                  "\", which rotates through large angles and would move it; put unbalance_position on "
+                                  "this axis, or carry the rotor by a separate body");
 }
 
 /// Attaches the unbalance of a rotor as an element "NAME unbalance": along e_1, the first global axis across the
@@ -313,7 +313,7 @@ coupling::Machine build_machine(const Scene &scene)
   if (scene.frame.source == FrameSource::matrices)
     return machine_on(scene, placed(scene.frame.place, [&] { return coupling::dense_frame(scene.frame.matrices); }));
   if (scene.bodies.empty())
-    throw std::invalid_argument(scene.file + ": has nothing that moves; declare a [frame] or at least one [body.NAME]");
+    throw std::invalid_argument(scene.file + ": has no moving part; declare a [frame] or at least one [body.NAME]");
   coupling::MachineModel machine;
   machine.set_gravity(scene.gravity);
   fill(machine, scene);
@@ -347,8 +347,8 @@ void require_motion(const coupling::Signal &signal, const std::string &path)
 {
   if (signal.on_q.empty() && signal.on_v.empty() && signal.on_a.empty() && is_motion_of_interface(path))
     throw std::invalid_argument("signal \"" + signal.name + "\": '" + path +
-                                "' is always zero, for the frame has no such motion at this interface; name another "
-                                "one, or leave the signal out");
+                                "' is always zero, because the frame has no such DOF at this interface; name another "
+                                "one, or remove the signal");
 }
 
 coupling::Signal signal_of_user(const SignalRequest &request, const coupling::Machine &machine)

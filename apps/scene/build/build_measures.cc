@@ -49,15 +49,15 @@ std::string motions_left(const coupling::Marker &marker, bool rotation)
     if (!(i < 3 ? marker.translation[i] : marker.rotation[i - 3]).empty())
       has += std::string(has.empty() ? "" : ", ") + (i < 3 ? "u" : "r") + "xyz"[i % 3];
   const bool is_interface = marker.name.rfind("frame.", 0) == 0;
-  return (is_interface ? "; of the frame it has " + (has.empty() ? "no motion" : has) : "") + "; name another motion" +
-         (is_interface && rotation ? ", or an interface that turns: one on a surface, not on a single node" : "");
+  return (is_interface ? "; its DOFs on the frame: " + (has.empty() ? "none" : has) : "") + "; name another DOF" +
+         (is_interface && rotation ? ", or an interface with rotations (on a surface, not on a single node)" : "");
 }
 
 std::invalid_argument no_motion(const MotionTerm &term, const coupling::MachineModel &machine)
 {
-  return std::invalid_argument("acts on a motion that the machine has not: \"" + term.marker + "\" does not " +
-                               (term.rotation ? "turn about " : "move along ") + triple(term.axis) +
-                               ", nor does its partner" + motions_left(machine.marker(term.marker), term.rotation));
+  return std::invalid_argument("acts on a DOF that the machine does not have: \"" + term.marker + "\" does not " +
+                               (term.rotation ? "rotate about " : "move along ") + triple(term.axis) +
+                               ", nor does the other body" + motions_left(machine.marker(term.marker), term.rotation));
 }
 
 /// Whether the motion of a point is linear, so that a zero gradient remains zero.
@@ -78,9 +78,9 @@ void require_motion(const MeasureRequest &request, const Built<PlacedMeasure> &b
     moves = std::any_of(gradient, gradient + built.measures.size(), [](double slope) { return slope != 0.; });
   }
   if (!moves)
-    throw std::invalid_argument("neither \"" + request.first.marker + "\" nor \"" + request.second.marker +
-                                "\" moves along what is asked for, so that it is always zero; name other places or "
-                                "another direction");
+    throw std::invalid_argument(
+        "neither \"" + request.first.marker + "\" nor \"" + request.second.marker +
+        "\" moves in this direction, so the measure is always zero; name other points or another direction");
 }
 
 Built<PlacedMeasure> build_placed(coupling::MachineModel &machine, const MeasureRequest &request)

@@ -57,8 +57,8 @@ void check_carrier(const coupling::MachineModel &machine, const BodyRequest &bod
   throw std::invalid_argument((slider ? "slider \"" : "rotor \"") + body.name + "\": its " +
                               (slider ? "guide" : "carrier") + " \"" + carrier->name +
                               "\" rotates through large angles, which " +
-                              (turns_axis ? "its axis" : "its place beside the axis of \"" + carrier->name + "\"") +
-                              " would not follow; make it a planar body, held by a " +
+                              (turns_axis ? "its axis" : "its position off the axis of \"" + carrier->name + "\"") +
+                              " cannot follow; make it a planar body with a " +
                               (slider ? "prismatic joint" : "revolute joint at its position"));
 }
 
@@ -82,11 +82,11 @@ std::vector<std::string> carried_warnings(const Scene &scene, const coupling::Ma
     {
       std::ostringstream text;
       text.precision(3);
-      text << body.place << ": the mass of \"" << body.name << "\" counts at the reference point of \"" << body.carrier
-           << "\", " << distance << " m beside its own position, so that its inertia about that point is left out; "
+      text << body.place << ": the mass of \"" << body.name << "\" acts at the reference point of \"" << body.carrier
+           << "\", " << distance << " m from its own position, so its inertia about that point is omitted; "
            << (body.kind == coupling::BodyKind::rotor
-                   ? "leave the mass out and add a point mass with an offset instead"
-                   : "give it an interface where it is, or make it a planar body on a prismatic joint");
+                   ? "omit the mass and add a point mass with an offset instead"
+                   : "add an interface at its position, or make it a planar body with a prismatic joint");
       warnings.push_back(text.str());
     }
   }

@@ -140,7 +140,7 @@ void check_start(const Scene &scene)
   }
   catch (const coupling::ConvergenceFailure &failure)
   {
-    throw against_start(scene, std::string("the machine does not start: ") + failure.what());
+    throw against_start(scene, std::string("no initial state: ") + failure.what());
   }
 }
 

@@ -13,7 +13,7 @@ std::string joined(const std::vector<std::string> &ways)
   std::string text;
   for (const std::string &way : ways)
     text += (text.empty() ? "" : "; ") + way;
-  return text.empty() ? "none of the frame itself" : text;
+  return text.empty() ? "no damping of the frame itself" : text;
 }
 
 std::string rayleigh_text(double alpha, double beta)
@@ -80,7 +80,7 @@ std::string damping_text(const FrameRequest &frame)
   case FrameSource::matrices:
     return text_of(frame.matrices);
   case FrameSource::reduced_file:
-    return "as the reduced frame was made";
+    return "as in the reduced frame";
   }
   return {};
 }

@@ -58,10 +58,10 @@ public:
   void look_at(const coupling::FaceBox &box, const Vector3 &point, const std::string &what, const Eigen::Matrix3d &free)
   {
     if (const coupling::FaceReach reach = coupling::reach_of(box, vector(point), free); reach.far())
-      warnings.push_back(what + " lies " + short_text(reach.outside, 3) +
-                         " m outside of the faces of this interface, which are " + short_text(reach.size, 3) +
-                         " m across; a rigid lever carries its force to them. Check the point and its unit, or give "
-                         "the interface the faces that carry it");
+      warnings.push_back(what + " is " + short_text(reach.outside, 3) +
+                         " m outside the faces of this interface, which are " + short_text(reach.size, 3) +
+                         " m across; a rigid lever transmits its force to them. Check the point and its unit, or add "
+                         "the actual faces to the interface");
   }
 
   std::vector<std::string> warnings;

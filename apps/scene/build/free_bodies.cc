@@ -56,7 +56,7 @@ std::vector<std::string> idle_bodies(const Scene &scene, const coupling::Machine
   };
   for (const coupling::Body &body : machine.bodies())
     if (std::none_of(used.begin(), used.end(), [&](int c) { return is_own(c, body); }))
-      warnings.push_back(place(body.name) + "nothing but its weight acts on the body \"" + body.name +
+      warnings.push_back(place(body.name) + "only its weight acts on the body \"" + body.name +
                          "\": no element, joint or load names it; is one missing, or does one name another body?");
   return warnings;
 }
@@ -112,9 +112,9 @@ std::vector<std::string> remote_joints(const Scene &scene, const coupling::Machi
       continue;
     std::ostringstream text;
     text.precision(3);
-    text << joint.place << ": the place of the joint \"" << joint.name << "\" lies " << nearer << " m from \""
-         << joint.from.marker << "\" and \"" << joint.to.marker
-         << "\", farther than all the rest of the machine is wide (" << others << " m); check the place and its unit";
+    text << joint.place << ": the point of the joint \"" << joint.name << "\" is " << nearer << " m from \""
+         << joint.from.marker << "\" and \"" << joint.to.marker << "\", more than the size of the rest of the machine ("
+         << others << " m); check the point and its unit";
     warnings.push_back(text.str());
   }
   return warnings;
@@ -152,7 +152,7 @@ std::string free_frame(const Scene &scene, const coupling::MachineModel &machine
   const bool falls = scene.gravity != Vector3{};
   return scene.frame.place + ": no support constrains the frame as a whole at the start, so that it " +
          (falls ? "falls under its weight" : "moves away under any load") + " " +
-         (ways.empty() ? "" : "(without elements it is free in " + ways + ")") +
+         (ways.empty() ? "" : "(without elements its rigid-body modes are " + ways + ")") +
          "; give it a support ([frame.support.NAME]) or elements to the ground";
 }
 

@@ -41,7 +41,7 @@ int set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::
     {
       const int i = interface.coordinate[motion];
       if (i < 0)
-        throw std::invalid_argument(value.place + ": this motion of the frame is held, it has no coordinate");
+        throw std::invalid_argument(value.place + ": this DOF of the frame is fixed");
       x[i] = interface.sign[motion] * value.value;
       return i;
     }
@@ -188,9 +188,8 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
       for (std::string &warning : coupling::closing_warnings(machine, known.v_given, state.q, state.v))
         state.notes.push_back(std::move(warning));
     if (start.rule == StartRule::rest && has_speed(start))
-      state.notes.push_back(
-          "start.v has no part in rule = \"static\", which starts at rest; take \"steady\", or \"given\" "
-          "with the positions of the equilibrium");
+      state.notes.push_back("start.v is not used with rule = \"static\", which starts at rest; use \"steady\", or "
+                            "\"given\" with the positions of the equilibrium");
     return state;
   }
   catch (const std::invalid_argument &e)

@@ -68,7 +68,7 @@ void require_repeating(const Scene &scene, const coupling::Machine &machine, con
   if (!names.empty())
     refuse(scene,
            "\"" + names.front() + "\" depends on the time and does not repeat with the period of " +
-               short_text(period) + " s that " + (of_rotor ? "the rotor starts with" : "the loads have"),
+               short_text(period) + " s " + (of_rotor ? "of the initial rotor speed" : "of the loads"),
            give_time);
 }
 
@@ -85,14 +85,14 @@ double result_window(const Scene &scene, const coupling::Machine &machine, const
   const double period = of_loads > 0. ? of_loads : slowest_revolution(machine, initial, length).period();
   if (period == 0.)
     refuse(scene,
-           "no period is known: no load has harmonics of a common period, and no rotor that starts with a speed "
-           "completes a revolution in the run; whether planar bodies revolve or swing is not known before it",
+           "the period is unknown: no load has harmonics of a common period, no rotor with an initial speed completes "
+           "a revolution in the run, and the rotation of planar bodies is not known in advance",
            give_time);
   if (period > length)
     refuse(scene,
            "the period of the loads, " + short_text(period) + " s, is longer than the run of " + short_text(length) +
                " s",
-           "give a later run.end");
+           "increase run.end");
   if (initial.v.size() == machine.size())
     require_repeating(scene, machine, initial, period, of_loads == 0.);
   return run.end - period;
@@ -112,9 +112,9 @@ void check_window(const Scene &scene, const coupling::Machine &machine, const co
   if (std::abs(mean - slowest.speed) <= equal_speeds * std::abs(slowest.speed))
     return;
   run.warn("result-window", "output.from",
-           scene.run.place + ": output.from = \"last period\" takes a revolution at the speed that \"" +
-               slowest.rotor->name + "\" starts with, " + short_text(slowest.speed) + " rad/s, but its mean speed is " +
-               short_text(mean) + " rad/s, so that the window is not a revolution; " + give_time);
+           scene.run.place + ": output.from = \"last period\" is a revolution at the initial speed of \"" +
+               slowest.rotor->name + "\", " + short_text(slowest.speed) + " rad/s, but its mean speed is " +
+               short_text(mean) + " rad/s, so the window is not a revolution; " + give_time);
 }
 
 } // namespace gestell::apps

@@ -47,7 +47,7 @@ void judge_play(const Scene &scene, const ElementRequest &element, const std::st
     warnings.push_back({key_place(scene, element.name, key),
                         "is " + size_text(play) + "; expected: at most " + size_text(most * size) + ", " +
                             short_text(most) + " of " + of_what + " (" + size_text(size) +
-                            "), more is not a clearance; check the unit",
+                            ") (more is not a clearance); check the unit",
                         std::abs(play) / (most * size)});
 }
 
@@ -135,19 +135,20 @@ void judge_elements(const Scene &scene, const coupling::Machine &machine, Warnin
   {
     constexpr double highest_hz = 50e3; // structure-borne sound of machines ends at some 20 kHz
     if (scale.frequency_hz() > highest_hz)
-      warnings.push_back({key_place(scene, scale.name, "stiffness"),
-                          "with the masses it acts on alone vibrates at " + short_text(scale.frequency_hz()) +
-                              " Hz; expected: at most " + short_text(highest_hz) +
-                              " Hz, as parts of machines vibrate below 20 kHz; check the units of stiffness and masses",
-                          scale.frequency_hz() / highest_hz});
+      warnings.push_back(
+          {key_place(scene, scale.name, "stiffness"),
+           "gives, with the masses it acts on, a frequency of " + short_text(scale.frequency_hz()) +
+               " Hz; expected: at most " + short_text(highest_hz) +
+               " Hz, since parts of machines vibrate below 20 kHz; check the units of stiffness and masses",
+           scale.frequency_hz() / highest_hz});
     constexpr double most_damped = 10.; // spring-dampers have ratios up to 1; with 10 nothing swings
     if (scale.ratio() > most_damped)
-      warnings.push_back({key_place(scene, scale.name, "damping"),
-                          "with the stiffness and the masses gives a damping ratio of " + short_text(scale.ratio()) +
-                              "; expected: at most " + short_text(most_damped) +
-                              ", as springs and dampers of machines have 0.001 to 1; check the units of stiffness, "
-                              "damping and masses",
-                          scale.ratio() / most_damped});
+      warnings.push_back(
+          {key_place(scene, scale.name, "damping"),
+           "with the stiffness and the masses gives a damping ratio of " + short_text(scale.ratio()) +
+               "; expected: at most " + short_text(most_damped) +
+               " (springs and dampers of machines: 0.001 to 1); check the units of stiffness, damping and masses",
+           scale.ratio() / most_damped});
   }
 }
 
@@ -168,13 +169,13 @@ void judge_springs(const Scene &scene, const coupling::Machine &machine, double 
       warnings.push_back({key_place(scene, spring.name, "preload"),
                           "accelerates the " + short_text(mass) + " kg that it acts on by " + short_text(push) +
                               " m/s^2; expected: at most " + short_text(hardest_push) +
-                              " m/s^2, twice as much as valve springs do; check the units of preload and mass",
+                              " m/s^2, twice that of valve springs; check the units of preload and mass",
                           push / hardest_push});
     const double weight = mass * std::abs(g.dot(vector(motion.axis)));
     if (const double sag = spring.stiffness > 0. && spring.preload == 0. ? weight / spring.stiffness : 0.;
         size > 0. && sag > most_yielding * size)
       warnings.push_back({key_place(scene, spring.name, "stiffness"),
-                          "yields by " + size_text(sag) + " under the weight of " + short_text(mass) +
+                          "deflects by " + size_text(sag) + " under the weight of " + short_text(mass) +
                               " kg; expected: " + yielding_text(size) + "; check the units of stiffness and mass",
                           sag / (most_yielding * size)});
   }
@@ -205,7 +206,7 @@ void judge_motors(const Scene &scene, const coupling::Machine &machine, Warnings
                "with ratio " + short_text(own.ratio) + " accelerates the " + short_text(J) +
                    " kg m^2 of its shaft to the synchronous speed within " + short_text(time) +
                    " s; expected: " + short_text(quickest) + " s to " + short_text(slowest) +
-                   " s, as motors alone take 10 ms and centrifuges minutes; check torque, ratio, inertia",
+                   " s, since motors alone need 10 ms and centrifuges minutes; check torque, ratio, inertia",
                std::max(quickest / time, time / slowest)});
       }
 }
@@ -224,7 +225,7 @@ void judge_frame(const Scene &scene, const coupling::MachineModel &machine, doub
       if (sag > most_yielding * size)
         warnings.push_back({scene.frame.place,
                             "the lowest frequency of the frame on its supports is " + short_text(hz) +
-                                " Hz: its weight along that motion deflects it by " + size_text(sag) +
+                                " Hz: its weight deflects it in this mode by " + size_text(sag) +
                                 "; expected: " + yielding_text(size) + "; check stiffness, supports and masses",
                             sag / (most_yielding * size)});
       return;
@@ -275,7 +276,7 @@ std::string key_place(const Scene &scene, const std::string &object, const std::
 std::string yielding_text(double size)
 {
   return "at most " + size_text(most_yielding * size) + ", " + short_text(most_yielding) +
-         " of the size of the machine, as suspensions of vehicles and air springs do";
+         " of the size of the machine, the range of vehicle suspensions and air springs";
 }
 
 std::vector<UnexpectedValue> scene_magnitudes(const Scene &scene, const coupling::Machine &machine, Masses masses)
@@ -302,12 +303,13 @@ std::vector<UnexpectedValue> magnitudes_of_modes(const Scene &scene, const std::
     {
       const bool   creeps = std::isnan(mode.damping_ratio);
       const double ratio  = creeps ? 1. : mode.damping_ratio; // or more
-      warnings.push_back({scene.frame.place + ".damping",
-                          "damps the mode of the frame at " + short_text(mode.frequency_hz) + " Hz by a ratio of " +
-                              short_text(ratio) + (creeps ? " or more" : "") + "; expected: at most " +
-                              short_text(most_frame_damping) +
-                              ", as foundations on viscous dampers have 0.3; check the units of damping and stiffness",
-                          ratio / most_frame_damping});
+      warnings.push_back(
+          {scene.frame.place + ".damping",
+           "damps the mode of the frame at " + short_text(mode.frequency_hz) + " Hz by a ratio of " +
+               short_text(ratio) + (creeps ? " or more" : "") + "; expected: at most " +
+               short_text(most_frame_damping) +
+               ", since foundations on viscous dampers have 0.3; check the units of damping and stiffness",
+           ratio / most_frame_damping});
       break;
     }
   return warnings;

@@ -32,9 +32,9 @@ std::string coupling_text(const fem::InterfaceSpecification &interface)
   switch (interface.coupling)
   {
   case Coupling::rigid:
-    return "rigid with ";
+    return "rigid on ";
   case Coupling::average:
-    return "mean of ";
+    return "average over ";
   case Coupling::flexible:
     return "flexible on ";
   case Coupling::point:
@@ -66,18 +66,19 @@ Words support_words(const std::vector<fem::Support> &supports)
 
 std::string standing(const fem::FrameSpecification &frame)
 {
-  std::string text = frame.supports.empty() ? "without supports" : "stands on " + joined(support_words(frame.supports));
-  Words       masses;
+  std::string text =
+      frame.supports.empty() ? "without supports" : "supported by " + joined(support_words(frame.supports));
+  Words masses;
   for (const fem::AttachedMass &mass : frame.masses)
     masses.push_back("'" + mass.name + "' (" + rounded(mass.mass) + " kg)");
-  return text + (masses.empty() ? "" : ", carries " + joined(masses));
+  return text + (masses.empty() ? "" : ", with masses " + joined(masses));
 }
 
 std::string reduction_text(const Scene &scene)
 {
   const coupling::ReductionOptions &o = scene.reduction.options;
   if (!scene.reduction.reduces())
-    return scene.reduction.superposition ? "moves in its modes" : "not reduced (" + scene.reduction.method + ")";
+    return scene.reduction.superposition ? "modal superposition" : "not reduced (" + scene.reduction.method + ")";
   return "reduced by " + o.method +
          (o.n_modes >= 0 ? " to " + count_text(std::size_t(o.n_modes), "mode") : " within " + percent(o.tolerance)) +
          (o.frequency > 0. ? " up to " + rounded(o.frequency) + " Hz" : "");
@@ -89,11 +90,11 @@ std::string frame_text(const Scene &scene)
   switch (frame.source)
   {
   case FrameSource::none:
-    return "none, the machine stands on the ground";
+    return "none, the machine is on rigid ground";
   case FrameSource::reduced_file:
-    return "reduced before, in " + frame.reduced_file;
+    return "already reduced, file " + frame.reduced_file;
   case FrameSource::matrices:
-    return "given by matrices; meets the machine at " +
+    return "given by matrices; interfaces " +
            joined(interface_words(
                [&]
                {
@@ -105,11 +106,11 @@ std::string frame_text(const Scene &scene)
            "; " + reduction_text(scene);
   case FrameSource::parts:
     return count_text(frame.parts.parts.size(), "part") + ", " + count_text(frame.parts.joints.size(), "joint") +
-           "; meets the machine at " + joined(interface_words(coupling::interfaces_in_frame(frame.parts))) + "; " +
+           "; interfaces " + joined(interface_words(coupling::interfaces_in_frame(frame.parts))) + "; " +
            reduction_text(scene);
   case FrameSource::geometry:
-    return standing(frame.geometry) + "; meets the machine at " + joined(interface_words(frame.geometry.interfaces)) +
-           "; " + reduction_text(scene);
+    return standing(frame.geometry) + "; interfaces " + joined(interface_words(frame.geometry.interfaces)) + "; " +
+           reduction_text(scene);
   }
   return "";
 }
@@ -127,7 +128,7 @@ std::string joint_text(const JointRequest &joint)
 {
   const std::string type = joint.is_scalar() ? "measure" : joint.type;
   const std::string kind = joint.law != nullptr ? "driven " + type : type;
-  return "'" + joint.name + "' (" + kind + (joint.compliance ? ", yields" : "") + ")";
+  return "'" + joint.name + "' (" + kind + (joint.compliance ? ", compliant" : "") + ")";
 }
 
 /// Names of elements without the names of their parts, such as "guide.rear".
@@ -168,7 +169,7 @@ std::string laws_text(const Scene &scene)
 }
 
 /// Number of DOFs that joints leave to the mechanism in the reference configuration, with its frame at rest.
-long freedoms(coupling::Machine &machine)
+long n_free(coupling::Machine &machine)
 {
   std::vector<int> frame(std::size_t(machine.model().n_frame()));
   std::iota(frame.begin(), frame.end(), 0);
@@ -185,32 +186,32 @@ std::string coordinates_text(const Scene &scene, coupling::Machine &machine)
 {
   const int         n_frame = machine.model().n_frame(), n_rows = int(machine.joints().n_rows());
   const bool        made      = scene.frame.source == FrameSource::geometry || scene.frame.source == FrameSource::parts;
-  const std::string of_bodies = std::to_string(machine.size() - n_frame) + " of the bodies";
+  const std::string of_bodies = std::to_string(machine.size() - n_frame) + " of bodies";
   std::string       text;
   if (n_frame > 0)
-    text = std::to_string(n_frame) + (made ? " of the interfaces and internal modes, " : " of the frame, ");
+    text = std::to_string(n_frame) + (made ? " of interfaces and internal modes, " : " of the frame, ");
   text += of_bodies;
   if (n_rows == 0)
     return text;
   text += "; " + count_text(std::size_t(n_rows), "equation") + " of joints and rigid bodies";
   constexpr int most_coordinates = 600; // limit for the computation of the DOFs, whose cost grows with the third power
   if (places_known(scene) && machine.size() <= most_coordinates)
-    text += "; on a frame at rest the mechanism has " + count_text(std::size_t(freedoms(machine)), "freedom");
+    text += "; mechanism on a fixed frame: " + count_text(std::size_t(n_free(machine)), "DOF");
   return text;
 }
 
 std::string start_text(const StartRequest &start)
 {
   if (start.periodic)
-    return "from the periodic motion";
+    return "on the periodic solution";
   switch (start.rule)
   {
   case StartRule::given:
-    return "from the coordinates and velocities given, zero for the rest";
+    return "given coordinates and velocities, all others zero";
   case StartRule::rest:
-    return start.drift ? "at rest but for the slow motion of its drives" : "at rest in its static equilibrium";
+    return start.drift ? "static equilibrium with the slow motion of the drives" : "static equilibrium";
   case StartRule::steady:
-    return "turning steadily";
+    return "steady rotation";
   }
   return "";
 }
@@ -225,8 +226,8 @@ double step_time(int n, bool has_joints)
 std::string duration_text(double seconds)
 {
   return seconds < 1.    ? "less than a second"
-         : seconds < 90. ? "some " + rounded(seconds, 1) + " s"
-                         : "some " + rounded(seconds / 60., 1) + " min";
+         : seconds < 90. ? "about " + rounded(seconds, 1) + " s"
+                         : "about " + rounded(seconds / 60., 1) + " min";
 }
 
 std::string run_text(const Scene &scene, const coupling::Machine &machine)
@@ -235,7 +236,7 @@ std::string run_text(const Scene &scene, const coupling::Machine &machine)
   const coupling::MethodOptions &method = o.method;
   std::string                    text   = method.method + " to t = " + rounded(o.end) + " s";
   if (coupling::controlled(method))
-    return text + ", steps controlled to a tolerance of " + rounded(method.tolerance);
+    return text + ", step control with tolerance " + rounded(method.tolerance);
   if (method.step <= 0. || !scene.run.step_given)
     return text;
   const double steps = std::ceil((o.end - o.begin) / method.step);
@@ -266,10 +267,10 @@ std::vector<std::string> scene_summary(const Scene &scene)
     lines.push_back("joints      " + joined(joints));
   if (const std::string laws = laws_text(scene); !laws.empty())
     lines.push_back("elements    " + laws);
-  lines.push_back("coordinates " + coordinates_text(scene, machine));
+  lines.push_back("DOFs        " + coordinates_text(scene, machine));
   if (scene.run.given)
   {
-    lines.push_back("start       " + start_text(scene.start));
+    lines.push_back("initial     " + start_text(scene.start));
     lines.push_back("run         " + run_text(scene, machine));
   }
   if (!scene.signals.empty())

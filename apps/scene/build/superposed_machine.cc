@@ -49,7 +49,7 @@ std::string lost(const std::string &energy, double whole, double in_modes)
   std::ostringstream text;
   text.precision(2);
   text << "modal superposition: the retained modes carry " << 100. * std::max(0., in_modes / whole) << " % of the "
-       << energy << " energy of the given start, which is changed by the rest; give more modes";
+       << energy << " energy of the given initial state, which is changed accordingly; use more modes";
   return text.str();
 }
 
@@ -71,9 +71,9 @@ void refuse_turning(const Scene &scene)
     return;
   for (const auto &[rotor, speed] : scene.start.steady.speeds)
     if (speed != 0.)
-      throw std::invalid_argument(scene.start.place + ": \"" + rotor +
-                                  "\" turns, and method = \"modal\" superposes vibrations about a position; take "
-                                  "method = \"craig-bampton\"");
+      throw std::invalid_argument(
+          scene.start.place + ": \"" + rotor +
+          "\" rotates, but method = \"modal\" superposes vibrations about a position; use method = \"craig-bampton\"");
 }
 
 SuperposedMachine superposed(const Scene &scene, const coupling::Machine &whole, const Eigen::VectorXd &q)
@@ -133,12 +133,12 @@ std::string keep_stable_step(double largest, double decay, RunRequest &run)
   if (method.step > kept_off_limit * largest)
   {
     text << "run.step is " << method.step << " s, but central differences are stable up to 2 / omega_max = " << largest
-         << " s of the retained modes; " << kept_off_limit * largest << " s is taken";
+         << " s of the retained modes; " << kept_off_limit * largest << " s is used";
     method.step = kept_off_limit * largest;
   }
   else if (method.step > decay)
-    text << "run.step is " << method.step << " s, but dampers end motions within " << decay
-         << " s, which central differences do not show with longer steps; take a smaller one, or method = \"exact\"";
+    text << "run.step is " << method.step << " s, but dampers damp motions within " << decay
+         << " s, which central differences do not resolve with longer steps; use a smaller step, or method = \"exact\"";
   return text.str();
 }
 

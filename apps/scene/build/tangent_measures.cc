@@ -44,8 +44,8 @@ double centre_distance(const Placement &first, const Placement &second, const Ve
 {
   const double distance = across(second.point() - first.point(), axis).norm();
   if (!(distance > 1e-9 * (first.point().norm() + second.point().norm())))
-    throw std::invalid_argument("the two wheels have one axis, so that no teeth are in mesh; a joint of type \"gear\" "
-                                "with a carrier couples them");
+    throw std::invalid_argument(
+        "the two wheels are coaxial, so no teeth are in mesh; couple them by a joint of type \"gear\" with a carrier");
   return distance;
 }
 
@@ -93,9 +93,9 @@ PlaceRequest on_own_axis(const coupling::MachineModel &machine, const PlaceReque
       // A bearing's centre found from the mesh of its bore misses that of the drawing by a share of the mesh size.
       constexpr double seen = 1e-3;
       if (const double beside = across(arm, axis).norm(); beside > seen * distance)
-        throw std::invalid_argument("the wheel's centre on \"" + body.name + "\" lies " + short_text(beside) +
-                                    " m beside the axis of this rotor; give the point of that axis in the plane of the "
-                                    "wheels, or make it a body of type \"planar\" if it is eccentric");
+        throw std::invalid_argument("the wheel's centre on \"" + body.name + "\" is " + short_text(beside) +
+                                    " m off the axis of this rotor; give the point of this axis in the plane of the "
+                                    "wheels, or use a body of type \"planar\" if it is eccentric");
       const Vector3d at = vector(body.centre) + axis.dot(arm) * axis;
       moved.at          = {at[0], at[1], at[2]};
     }

@@ -32,10 +32,9 @@ struct Loop
 Loop loop_around(const SceneTable &table, double from, double to, double distance)
 {
   if (!(from + std::abs(to) < distance))
-    throw table.error(
-        "wheels of radius " + short_text(from) + " m and " + short_text(std::abs(to)) +
-        " m do not fit beside each other: their centres are " + short_text(distance) +
-        " m apart, which must be more than the sum of the radii; correct 'at_from', 'at_to' or the radii");
+    throw table.error("wheels of radius " + short_text(from) + " m and " + short_text(std::abs(to)) +
+                      " m overlap: their centres are " + short_text(distance) +
+                      " m apart, less than the sum of the radii; correct 'at_from', 'at_to' or the radii");
   return {from, to, distance};
 }
 
@@ -43,7 +42,7 @@ Loop loop_around(const SceneTable &table, double from, double to, double distanc
 double strand_stiffness(const SceneTable &table, const Loop &loop)
 {
   if (table.has("stiffness") == table.has("rigidity"))
-    throw table.error("needs 'stiffness' of one strand or 'rigidity' E A, one of the two");
+    throw table.error("needs either 'stiffness' of one strand or 'rigidity' E A");
   return table.has("stiffness") ? table.value("stiffness") : table.value("rigidity") / loop.strand();
 }
 
@@ -60,18 +59,18 @@ double elongation_by(const SceneTable &table, const Loop &loop, double length, c
 {
   const double      strain = (loop.path() - length) / length;
   const std::string way    = "is " + short_text(length, 6) +
-                          " m long, but its way around both wheels at a centre distance of " +
+                          " m long, but its path around both wheels at a centre distance of " +
                           short_text(loop.distance, 6) + " m is " + short_text(loop.path(), 6) + " m: ";
   if (strain > limits.largest)
     throw table.error(way + "it would be stretched by " + percent(strain) + ", at most " + percent(limits.largest) +
-                      " makes sense; take it longer or move the wheels together");
+                      " is plausible; use a longer one or move the wheels together");
   if (strain > limits.usual)
     table.warn(limits.key, way + "it is stretched by " + percent(strain) + " at the start, more than the usual " +
                                percent(limits.usual) + "; check length and centres");
   if (length - loop.path() > limits.slack)
     table.warn(limits.key, way + "both strands are slack at the start, by " +
                                short_text(0.5 * (length - loop.path()), 3) +
-                               " m each, and the wheels turn freely until one is taut; check length and centres");
+                               " m each, and the wheels rotate freely until one is taut; check length and centres");
   return strain > 0. ? strain * loop.strand() : 0.5 * (loop.path() - length);
 }
 
@@ -95,8 +94,7 @@ void read_belt(const SceneTable &table, const Names &names, Scene &scene)
 {
   if (table.has("pretension") == table.has("length"))
     throw table.error(
-        "needs 'pretension', the pull of both strands at rest, or 'length' of the belt without force, one "
-        "of the two");
+        "needs either 'pretension', the tension of both strands at rest, or 'length' of the unloaded belt");
   const WheelPair wheels = read_wheels(table, names, "pulley");
   const double    to     = table.value("radius_to");
   // Belts that hold by their stretch alone are mounted with up to 5 %, beyond which E A is not constant; those with
@@ -122,7 +120,7 @@ std::optional<double> read_links(const SceneTable &table)
     return std::nullopt;
   const int links = table.whole("links");
   if (links < 1)
-    throw table.error("links", "is " + std::to_string(links) + "; a chain has at least as many as its way needs");
+    throw table.error("links", "is " + std::to_string(links) + "; the path of the chain needs more links");
   return links * table.value("pitch");
 }
 

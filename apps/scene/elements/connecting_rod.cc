@@ -25,8 +25,7 @@ void read_connecting_rod(const SceneTable &table, const Names &names, Scene &sce
   const auto &slider = names.body(table, "to", coupling::BodyKind::slider);
   const auto &e      = slider.axis;
   if (const auto &a = crank.axis; std::abs(a[0] * e[0] + a[1] * e[1] + a[2] * e[2]) > 1e-9)
-    throw table.error("the axes of crank '" + crank.name + "' and slider '" + slider.name +
-                      "' are not at right angles");
+    throw table.error("the axes of crank '" + crank.name + "' and slider '" + slider.name + "' are not perpendicular");
 
   const auto rod = table.filled<mechanism::ConnectingRod::Parameters>();
   add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::ConnectingRod>(rod); }),

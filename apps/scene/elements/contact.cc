@@ -36,7 +36,7 @@ void add_point(Scene &scene, const SceneTable &table, const std::string &name, c
 void check_two_bodies(const SceneTable &table, const PlaceRequest &from, const PlaceRequest &to)
 {
   if (from.marker == to.marker)
-    throw table.error("to", "lies on '" + to.marker + "' like `from`; a contact is one of two bodies");
+    throw table.error("to", "is on '" + to.marker + "', the body of `from`; a contact needs two bodies");
 }
 
 } // namespace
@@ -69,7 +69,7 @@ void read_guide_with_play(const SceneTable &table, const Names &names, Scene &sc
     throw table.error("needs 'at', the centre of the slide in the reference configuration");
   const Vector3 axis = table.direction("axis"), normal = table.direction("normal");
   if (std::abs(axis[0] * normal[0] + axis[1] * normal[1] + axis[2] * normal[2]) > 1e-9)
-    throw table.error("normal", "must be at right angles to 'axis': the play lies across the guide");
+    throw table.error("normal", "must be perpendicular to 'axis': the clearance is across the guide");
   PointContact::Parameters contact{read_contact(table, false), read_sliding_friction(table)};
   const double             length = table.value("length");
   for (const double end : {-1., 1.})

@@ -21,7 +21,7 @@ void read_force(const SceneTable &table, const Names &names, Scene &scene)
     load.oscillations.push_back(
         {2. * M_PI * part.value("frequency"), part.value("amplitude", motion.rotation), part.value("phase")});
   if (!table.has("constant") && !table.has("harmonics"))
-    throw table.error("needs 'constant' or 'harmonics'; with neither it would do nothing");
+    throw table.error("needs 'constant' or 'harmonics'; without both it has no effect");
   if (!motion.is_measure())
   {
     scene.loads.push_back(load);

@@ -17,7 +17,7 @@ void read_formula_force(const SceneTable &table, const Names &names, Scene &scen
   if (const auto user = table.user_value("force"))
   {
     if (!user->law)
-      throw table.error("force", "is a function for a signal; make it by Scene.element(NAME, force=...)");
+      throw table.error("force", "is a function for a signal; define a force law by Scene.element(NAME, force=...)");
     const auto along = turns ? UserForce::Along::angle : UserForce::Along::line;
     add_element_on(scene, table, checked(table, [&] { return std::make_shared<UserForce>(*user->law, along); }),
                    motion);

@@ -42,8 +42,8 @@ void read_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto motion = read_relative_motion(table, names);
   if (table.has("static_force") != table.has("stribeck_speed"))
-    throw table.error(
-        "needs 'static_force' and 'stribeck_speed' together: from where the force falls, and over which speed");
+    throw table.error("needs 'static_force' and 'stribeck_speed' together: the static friction force and the speed "
+                      "over which it falls");
   add_law<RegularisedFriction>(scene, table, table.filled<RegularisedFriction::Parameters>(motion.rotation), motion);
 }
 
@@ -57,7 +57,7 @@ void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene
     throw table.error("needs either 'normal_force' with 'static' and 'kinetic', or 'static_force' and 'kinetic_force'");
   if (coefficients && motion.rotation)
     throw table.error(
-        "acts on an angle, where a normal force has no lever; give 'static_force' and 'kinetic_force' as torques");
+        "acts on an angle, where a normal force has no lever arm; give 'static_force' and 'kinetic_force' as torques");
 
   auto friction = table.filled<CoulombFriction::Parameters>(motion.rotation);
   if (coefficients)
@@ -71,7 +71,7 @@ void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene
   if (friction.static_force < friction.kinetic_force)
     throw table.error(coefficients ? "static" : "static_force",
                       std::string("is below '") + (coefficients ? "kinetic" : "kinetic_force") +
-                          "'; what slides would hold more than what sticks, give at least as much");
+                          "'; static friction must be at least the kinetic one");
   add_law<CoulombFriction>(scene, table, friction, motion);
 }
 
@@ -98,7 +98,7 @@ void read_brake(const SceneTable &table, const Names &names, Scene &scene)
   refuse_measure(table, motion);
   auto brake = table.filled<CoulombFriction::Parameters>(motion.rotation);
   if (brake.static_force < brake.kinetic_force)
-    throw table.error("static_capacity", "is below 'capacity'; what slides would hold more than what sticks");
+    throw table.error("static_capacity", "is below 'capacity'; the static capacity must be at least the sliding one");
   if (!table.has("engagement"))
     throw table.error(
         "needs 'engagement', a share from 0 to 1: ramps such as [{ at = \"1 s\", to = 1, rate = \"5/s\" }]");
@@ -112,7 +112,7 @@ void read_brake(const SceneTable &table, const Names &names, Scene &scene)
 void read_clutch(const SceneTable &table, const Names &names, Scene &scene)
 {
   if (!table.has("to"))
-    throw table.error("needs 'to', the body that is coupled; against the ground it would be a brake");
+    throw table.error("needs 'to', the other body; a clutch to the ground is a brake");
   read_brake(table, names, scene);
 }
 

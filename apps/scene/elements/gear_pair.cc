@@ -27,9 +27,9 @@ struct Teeth
 void check_angles(const SceneTable &table, const Teeth &teeth)
 {
   if (!(teeth.pressure_angle > 0. && teeth.pressure_angle < 0.25 * M_PI))
-    throw table.error("pressure_angle", "must lie between 0 and 45 degrees; teeth have 20 degrees as a rule");
+    throw table.error("pressure_angle", "must be between 0 and 45 degrees; usually 20 degrees");
   if (!(std::abs(teeth.helix_angle) < M_PI / 3.))
-    throw table.error("helix_angle", "must lie between -60 and 60 degrees; gears have up to 45 degrees");
+    throw table.error("helix_angle", "must be between -60 and 60 degrees; usually up to 45 degrees");
 }
 
 /// Pitch radii that add up to the distance of the centres exactly.

@@ -19,12 +19,12 @@ void read_hydraulic_cylinder(const SceneTable &table, const Names &names, Scene 
   const auto motion = read_relative_motion(table, names);
   if (motion.rotation)
     throw table.error(
-        "a hydraulic cylinder acts along a line, but the motion is an angle; give 'direction', or 'on' a distance");
+        "a hydraulic cylinder acts along a line, but this measure is an angle; give 'direction', or 'on' a length");
   auto              cylinder = table.filled<HydraulicCylinder::Parameters>();
   const bool        valve    = table.has("valve");
   const ProfileKeys keys     = valve ? level_profile(kind::number, "10") : level_profile(flow, flow.example);
   if (valve == table.has("flow"))
-    throw table.error("needs 'flow', a level or ramps, or 'valve', its opening from -1 to 1; one of both");
+    throw table.error("needs either 'flow' (a level or ramps) or 'valve' (opening from -1 to 1)");
   if (valve)
   {
     cylinder.control = HydraulicCylinder::Control::valve;

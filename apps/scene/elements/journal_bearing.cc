@@ -31,7 +31,7 @@ PairRequest read_bearing(const SceneTable &table, const Names &names)
                    right_handed_plane(table.direction("axis")),
                    {}};
   if (pair.from.marker == pair.to.marker)
-    throw table.error("to", "lies on '" + pair.to.marker + "' like `from`; a bearing holds one body in another");
+    throw table.error("to", "is on '" + pair.to.marker + "', the body of `from`; a bearing connects two bodies");
   if (!pair.from.at && !pair.to.at)
     throw table.error("needs 'at', the centre of the bearing in the reference configuration");
   if (!pair.to.at)

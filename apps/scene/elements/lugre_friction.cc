@@ -12,7 +12,7 @@ void read_lugre_friction(const SceneTable &table, const Names &names, Scene &sce
   const auto motion   = constant_motion(read_relative_motion(table, names), names);
   const auto friction = table.filled<mechanism::LuGreFriction::Parameters>(motion.rotation);
   if (friction.static_force > friction.kinetic_force && !table.has("stribeck_speed"))
-    throw table.error("needs 'stribeck_speed', over which the force falls from the static to the kinetic one");
+    throw table.error("needs 'stribeck_speed', the speed over which the force falls from static to kinetic friction");
   add_law<mechanism::LuGreFriction>(scene, table, friction, motion,
                                     {{table.name() + ".bristles", mechanism::LuGreFriction::lag()}});
 }

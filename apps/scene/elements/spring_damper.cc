@@ -14,7 +14,7 @@ void read_spring_damper(const SceneTable &table, const Names &names, Scene &scen
   const auto spring = table.filled<mechanism::SpringDamper::Parameters>(motion.rotation);
   // A value may be varied down to zero; what is not given at all was forgotten.
   if (!table.has("stiffness") && !table.has("damping") && !table.has("preload"))
-    throw table.error("needs 'stiffness', 'damping' or 'preload'; with none of them it would do nothing");
+    throw table.error("needs 'stiffness', 'damping' or 'preload'; without them it has no effect");
   if (!motion.is_measure())
     scene.linear.push_back(
         {table.name(), motion.u, spring.stiffness, spring.damping, spring.preload, spring.rest, motion.force_unit()});

@@ -11,8 +11,7 @@ void read_wheel(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto motion = read_relative_motion(table, names);
   if (motion.rotation)
-    throw table.error("stands on the ground along a displacement, not on an angle; give 'direction' or a measure of a "
-                      "length");
+    throw table.error("needs a displacement, not an angle; give 'direction' or a measure of a length");
   add_law<mechanism::Wheel>(scene, table, table.filled<mechanism::Wheel::Parameters>(), motion);
 }
 

@@ -45,9 +45,8 @@ CsvFile parsed(const std::string &name, std::istream &in)
     if (number == 1 && line.rfind("\xef\xbb\xbf", 0) == 0)
       line.erase(0, 3); // the mark of UTF-8 that spreadsheets put first
     if (line.find('\0') != std::string::npos)
-      throw std::invalid_argument(
-          table.place(number) +
-          "holds a zero byte; it is written in UTF-16 or is not text: save the table as CSV in UTF-8");
+      throw std::invalid_argument(table.place(number) +
+                                  "contains a zero byte (UTF-16, or not text); save the table as CSV in UTF-8");
     const std::string text = trimmed(line);
     if (text.empty() || text[0] == '#')
       continue;
@@ -60,8 +59,9 @@ CsvFile parsed(const std::string &name, std::istream &in)
     }
     table.lines.push_back({number, csv_cells(text, separator)});
     if (table.lines.back().cells.size() != table.head.size())
-      throw std::invalid_argument(table.place(number) + "has " + std::to_string(table.lines.back().cells.size()) +
-                                  " cells, but the head of the table has " + std::to_string(table.head.size()));
+      throw std::invalid_argument(
+          table.place(number) + "has " + std::to_string(table.lines.back().cells.size()) +
+          " cells, but the table has this number of columns: " + std::to_string(table.head.size()));
   }
   if (table.head.empty())
     throw std::invalid_argument(name + ": is empty; its first line must name the columns");

@@ -84,7 +84,7 @@ double SceneTable::share(const std::string &key) const
   if (share <= 1.)
     return share;
   std::ostringstream text;
-  text << "needs a share of at most 1, got " << share << "; percent are written \"" << share << " %\"";
+  text << "needs a value of at most 1, got " << share << "; write percent as \"" << share << " %\"";
   throw error(key, text.str());
 }
 

@@ -37,7 +37,7 @@ const Expected *expected_of(const std::string &key, const Kind &kind)
 {
   static const Expected                        friction{0., 2., "dry metal has 0.05 to 0.5, rubber on asphalt 1"};
   static const std::map<std::string, Expected> of_keys = {
-      {"synchronous_speed", {0., 400., "motors at mains of 50 or 60 Hz turn at 3600 1/min = 377 rad/s at most"}},
+      {"synchronous_speed", {0., 400., "motors at 50 or 60 Hz mains reach at most 3600 1/min = 377 rad/s"}},
       {"thickness", {1e-6, 0.1, "presses and shears cut sheets and plates up to 60 mm"}},
       {"shear_resistance", {1e5, 5e9, "sheets from paper to hardened steel have 1 MPa to 2 GPa"}},
       {"bulk_modulus", {1e7, 1e10, "liquids have 0.5 to 3 GPa, with bubbles of air less"}},
@@ -85,7 +85,7 @@ std::string key_of(const UnexpectedValue &value)
   return colon == std::string::npos ? value.place : value.place.substr(colon + 2);
 }
 
-/// "; unexpected, too, perhaps by the same mistake: element.rod.damping, body.ram"
+/// "; also unexpected, perhaps for the same reason: element.rod.damping, body.ram"
 std::string others(const std::vector<UnexpectedValue> &values, const std::string &warning)
 {
   std::vector<std::string> keys;
@@ -96,7 +96,7 @@ std::string others(const std::vector<UnexpectedValue> &values, const std::string
   std::string           text;
   constexpr std::size_t most_named = 5; // keys of a line of text
   for (std::size_t i = 0; i < std::min(keys.size(), most_named); ++i)
-    text += (text.empty() ? "; unexpected, too, perhaps by the same mistake: " : ", ") + keys[i];
+    text += (text.empty() ? "; also unexpected, perhaps for the same reason: " : ", ") + keys[i];
   if (keys.size() > most_named)
     text += " and " + std::to_string(keys.size() - most_named) + " more";
   return text;

@@ -22,7 +22,8 @@ namespace
 void check_name(const SceneNode &value, const std::string &name)
 {
   if (!is_identifier(name))
-    fail(value, name, "a parameter's name consists of letters, digits and underscores and begins with no digit");
+    fail(value, name,
+         "the name of a parameter consists of letters, digits and underscores and does not begin with a digit");
   if (is_reserved_name(name))
     fail(value, name, "'" + name + "' is a function or constant of expressions; choose another name");
 }
@@ -81,15 +82,15 @@ Quantity Parameters::evaluate_entry(const Table &table, const std::string &name,
   constexpr std::size_t longest_chain = 500; // of parameters that need each other; each takes some of the stack
   if (open.size() >= longest_chain)
     fail(value, name,
-         "is needed at the end of a chain of " + std::to_string(longest_chain) +
-             " parameters; put those that others need before them");
+         "is at the end of a chain of " + std::to_string(longest_chain) +
+             " parameters; define parameters before those that use them");
   open.push_back(name);
 
   Quantity result;
   if (value.type == SceneNode::Type::integer || value.type == SceneNode::Type::real)
     result = Quantity{value.number, {}, false, Counts::nothing};
   else if (value.type != SceneNode::Type::text)
-    fail(value, name, "needs a number or text such as \"40 mm\", got " + type_name(value.type));
+    fail(value, name, "needs a number or a string such as \"40 mm\", got " + type_name(value.type));
   else
     try
     {
@@ -168,7 +169,7 @@ void Parameters::refuse_idle_overrides() const
   for (const auto &[name, place] : overrides_)
     if (used_.count(name) == 0)
       throw IdleParameter(place.text() + ": no value of the scene depends on the parameter '" + name +
-                          "', so that it changes nothing" + suggestion(name, {used_.begin(), used_.end()}));
+                          "', so it has no effect" + suggestion(name, {used_.begin(), used_.end()}));
 }
 
 } // namespace gestell::apps

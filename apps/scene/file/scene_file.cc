@@ -45,7 +45,7 @@ void leave_out(SceneNode &base, const SceneNode &path)
   const auto        refuse = [&](const std::string &why) { path.place.fail("without: '" + path.text + "': " + why); };
   const std::size_t dot    = path.text.find('.');
   if (path.type != Type::text || dot == std::string::npos)
-    refuse("needs the table and the name of one entry, such as \"joint.cylinder\"");
+    refuse("needs a table and a name, such as \"joint.cylinder\"");
   SceneNode  *table = base.find(path.text.substr(0, dot));
   std::string name  = path.text.substr(dot + 1);
   if (table && !table->find(name)) // a key in a table, "joint.cylinder.motion"
@@ -61,7 +61,7 @@ void leave_out(SceneNode &base, const SceneNode &path)
     for (const auto &[key, value] : base.entries)
       for (const auto &[inner, unused] : value.entries)
         valid.push_back(key + "." + inner);
-    refuse("the scene that is extended has no such entry" + suggestion(path.text, valid));
+    refuse("the base scene has no such table" + suggestion(path.text, valid));
   }
   remove(*table, name);
 }
@@ -73,7 +73,7 @@ void leave_out_listed(SceneNode &base, SceneNode &own)
   if (!without)
     return;
   if (without->type != Type::array)
-    without->place.fail("without: needs a list of entries, such as [\"joint.cylinder\"], got " +
+    without->place.fail("without: needs a list of names, such as [\"joint.cylinder\"], got " +
                         type_name(without->type));
   for (const SceneNode &path : without->elements)
     leave_out(base, path);
@@ -86,7 +86,7 @@ SceneNode with_base(SceneNode own, const std::string &path, std::vector<std::str
 
   const SceneNode *extends = own.find("extends");
   if (const SceneNode *without = own.find("without"); without && !extends)
-    without->place.fail("without: takes entries out of the scene that is extended, but nothing is; leave it out");
+    without->place.fail("without: removes tables of a base scene, but there is no 'extends'; remove it");
   if (!extends)
     return own;
   if (extends->type != Type::text)
@@ -97,11 +97,11 @@ SceneNode with_base(SceneNode own, const std::string &path, std::vector<std::str
   if (!std::filesystem::exists(next))
     extends->place.fail("extends = \"" + extends->text + "\": there is no file " + next);
   if (std::count(files.begin(), files.end(), std::filesystem::weakly_canonical(next).string()))
-    extends->place.fail("extends = \"" + extends->text + "\": the scenes extend each other in a circle");
+    extends->place.fail("extends = \"" + extends->text + "\": the scenes extend each other cyclically");
   constexpr std::size_t most_extended = 50; // of scenes that extend each other: each takes some of the stack
   if (files.size() > most_extended)
     extends->place.fail("extends = \"" + extends->text + "\": more than " + std::to_string(most_extended) +
-                        " scenes extend each other; write what they say in common into one");
+                        " scenes extend each other; merge some of them");
 
   SceneNode base = with_base(parse_toml_file(next), next, files);
   remove(own, "extends");

@@ -50,7 +50,7 @@ std::string type_name(Type type)
 std::string described(const SceneNode &value)
 {
   if (value.type == Type::text)
-    return "the text \"" + value.text + "\"";
+    return "the string \"" + value.text + "\"";
   return value.type == Type::table || value.type == Type::array || value.type == Type::date ? type_name(value.type)
                                                                                             : value.text;
 }

@@ -76,7 +76,7 @@ std::vector<std::string> key_segments(const std::string &path, const Place &plac
     }
     constexpr std::size_t deepest_key = 50; // tables in each other, as in a file: each takes some of the stack
     if (result.size() > deepest_key)
-      place.fail("the key goes more than " + std::to_string(deepest_key) + " tables deep; a scene has six at most");
+      place.fail("the key goes more than " + std::to_string(deepest_key) + " tables deep; a scene has at most six");
     if (result.back().empty() || (end < path.size() && path[end] != '.'))
       place.fail("is not a key path such as run.step or frame.surface.\"crown bearing\".faces");
     i = end + 1;
@@ -92,7 +92,7 @@ std::pair<std::string, SceneNode> parsed_override(const std::string &text)
     place.fail("needs the form key.path=value, for example --set run.step=\"5 us\"");
   const std::string key = trimmed(text.substr(0, equals));
   if (key_segments(key, place).front() == "extends")
-    place.fail("what a scene extends cannot be overridden");
+    place.fail("the key 'extends' of a scene cannot be overridden");
   return {key, override_value(trimmed(text.substr(equals + 1)), place)};
 }
 
@@ -107,7 +107,7 @@ void apply_override(SceneNode &root, const std::string &key, const SceneNode &va
   const Place &place = value.place;
   const auto   path  = key_segments(key, place);
   if (path.front() == "extends")
-    place.fail("what a scene extends cannot be overridden");
+    place.fail("the key 'extends' of a scene cannot be overridden");
   if (SceneNode *run = root.find("run"); run && path.size() == 2 && path.front() == "run")
   {
     SceneNode newer;
@@ -126,7 +126,7 @@ void apply_override(SceneNode &root, const std::string &key, const SceneNode &va
   {
     if (node->type != SceneNode::Type::table)
       place.fail("'" + path[i - 1] + "' is " + type_name(node->type) + " (" + node->place.text() +
-                 ") and has no entry '" + path[i] + "'");
+                 ") and has no key '" + path[i] + "'");
     if (!node->find(path[i]))
     {
       node->entries.emplace_back(path[i], SceneNode{});

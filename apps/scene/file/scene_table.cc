@@ -385,7 +385,7 @@ std::vector<std::string> SceneTable::texts(const std::string &key) const
     result.push_back(element.text);
   }
   if (result.empty())
-    throw error(key, "needs at least one text, got an empty array");
+    throw error(key, "needs at least one string, got an empty array");
   return result;
 }
 

@@ -35,9 +35,9 @@ std::string hint_of_header(const std::string &header)
   static const std::regex with_spaces(R"(^\[+(.*\.)?([^".\]]*[^".\]A-Za-z0-9_-][^".\]]*)\]+$)");
   std::smatch             parts;
   if (std::regex_match(header, parts, with_spaces))
-    return "a name with more than letters, digits, _ and - needs quotes: [" + parts[1].str() + "\"" +
+    return "a name with characters other than letters, digits, _ and - needs quotes: [" + parts[1].str() + "\"" +
            trimmed(parts[2]) + "\"]";
-  return header.back() == ']' ? "" : "the head of a table ends with ]";
+  return header.back() == ']' ? "" : "a table header ends with ]";
 }
 
 std::string hint_of_value(const std::string &value)
@@ -49,13 +49,13 @@ std::string hint_of_value(const std::string &value)
   static const std::regex remark(R"(^[^"']*(//|;).*$)");
   std::smatch             parts;
   if (value.empty())
-    return "a value is missing behind the =";
+    return "a value is missing after the =";
   if (std::regex_match(value, parts, comma))
-    return "decimals have a point: " +
+    return "write a decimal point: " +
            (parts[3].length() == 0 ? parts[1].str() + "." + parts[2].str()
                                    : "\"" + parts[1].str() + "." + parts[2].str() + " " + parts[3].str() + "\"");
   if (std::regex_match(value, remark))
-    return "a comment begins with #, and nothing ends a line";
+    return "a comment begins with #, and a line has no end character";
   if (std::regex_search(value, parts, no_zero))
     return "a number has digits on both sides of its point: 0.5, 5.0";
   if (std::regex_search(value, parts, with_unit))
@@ -82,14 +82,14 @@ std::string toml_hint(const std::string &line)
   if (content.front() == '[')
     return hint_of_header(content);
   if (std::count(content.begin(), content.end(), '"') % 2 + std::count(content.begin(), content.end(), '\'') % 2 > 0)
-    return "a quote is opened here and not closed";
+    return "a quote opened here is not closed";
   const auto equals = content.find('=');
   if (equals == std::string::npos)
-    return content.find(':') != std::string::npos ? "a key and its value have = between them" : "";
+    return content.find(':') != std::string::npos ? "a key and its value are separated by =" : "";
   const std::string       key = trimmed(content.substr(0, equals));
   static const std::regex with_more(R"(^[^"'.]*[^"'.A-Za-z0-9_-][^"'.]*$)");
   if (std::regex_match(key, with_more))
-    return "a key with more than letters, digits, _ and - needs quotes: \"" + key + "\"";
+    return "a key with characters other than letters, digits, _ and - needs quotes: \"" + key + "\"";
   return hint_of_value(trimmed(content.substr(equals + 1)));
 }
 
@@ -120,10 +120,10 @@ std::string hint_of_repetition(const std::string &line, const std::string &reaso
   const std::string type = parts[1];
   const bool        head = trimmed(line).compare(0, 1, "[") == 0;
   if (type == "table" && trimmed(line).compare(0, 2, "[[") == 0)
-    return "[" + name + "] is one table above; double brackets are for a list of tables";
+    return "[" + name + "] is a single table above; double brackets are for a list of tables";
   if (reason.find(" as table") != std::string::npos || reason.find(" as array-of-tables") != std::string::npos ||
       reason.find(" as dotted") != std::string::npos)
-    return name + ": the same name stands above for another value (" + type + "); it cannot be a table as well";
+    return name + ": the same name is used above for another value (" + type + "); it cannot also be a table";
   if (type == "table")
     return head ? "[" + name + "] is defined twice in the file; put all its keys under one heading"
                 : "'" + name + "' is already a table above";
@@ -134,9 +134,9 @@ std::string hint_of_repetition(const std::string &line, const std::string &reaso
 std::string hint_of_place(const std::string &reason)
 {
   if (reason.find("expected comma or closing ']'") != std::string::npos)
-    return "an array above is not closed; it begins with [, has commas between its values and ends with ]";
+    return "an array above is not closed; write it as [value, value]";
   if (reason.find("end-of-file") != std::string::npos)
-    return "the file ends inside an array, a table or a text; close it with ], } or its quotes";
+    return "the file ends inside an array, a table or a string; close it with ], } or quotes";
   return reason.substr(reason.find(": ") + 2);
 }
 
@@ -153,7 +153,7 @@ std::string toml_hint(const std::string &line, const std::string &reason)
 std::string hint_of_large_number(const std::string &reason)
 {
   if (reason.find("could not be interpreted as a value") != std::string::npos)
-    return "a number is beyond 1.8e308, the largest that a computer takes; write a smaller one";
+    return "a number exceeds 1.8e308, the largest possible value; write a smaller one";
   if (reason.find("not representable in 64 bits") != std::string::npos ||
       reason.find("exceeds length limit") != std::string::npos)
     return "a number has too many digits; write it with an exponent, as 9.2e18";
@@ -190,14 +190,15 @@ std::pair<int, std::string> hint_of_bytes(const std::string &text)
 {
   const std::string begin = text.substr(0, 2);
   if (begin == "\xFF\xFE" || begin == "\xFE\xFF" || text.substr(0, 256).find('\0') != std::string::npos)
-    return {1, "is written in UTF-16 or is not text; save it as UTF-8, as editors offer with the encoding"};
+    return {1, "is in UTF-16 or is not text; save it in the encoding UTF-8"};
   if (text.compare(0, 10, "ISO-10303-") == 0)
-    return {1, "is a STEP file, not a scene; 'gestell mesh FILE' shows it, and a scene names it as frame.cad"};
+    return {1,
+            "is a STEP file, not a scene; 'gestell mesh FILE' lists its faces, and a scene refers to it by frame.cad"};
   for (std::size_t at = 0; at < text.size();)
   {
     const std::size_t length = utf8_length(text, at);
     if (length == 0)
-      return {line_at(text, at), "has a character that is not UTF-8 (of Latin-1 or Windows?); save the file as UTF-8"};
+      return {line_at(text, at), "has a character that is not UTF-8 (Latin-1 or Windows?); save the file as UTF-8"};
     at += length;
   }
   return {0, ""};

@@ -196,7 +196,7 @@ SceneNode parse_toml_text(const std::string &text, const std::string &name, cons
   };
   if (const int line = too_deep(text); line > 0)
     throw complaint(line, "tables and arrays are nested more than " + std::to_string(deepest) +
-                              " deep here; a scene needs six at most");
+                              " deep here; a scene needs at most six");
   try
   {
     return node_of(text, Place{name, 1}, folder);
@@ -210,7 +210,7 @@ SceneNode parse_toml_text(const std::string &text, const std::string &name, cons
     const auto begins_head = [&](int i) { return trimmed(line_of(text, i)).compare(0, 1, "[") == 0; };
     if (reason.find("parsing table header") != std::string::npos && !begins_head(line) && begins_head(line - 1))
       --line; // its end has been read
-    throw complaint(line, "is not TOML here: " + toml_hint(line_of(text, line), reason));
+    throw complaint(line, "is not valid TOML here: " + toml_hint(line_of(text, line), reason));
   }
 }
 

@@ -68,19 +68,20 @@ std::optional<ComplianceRequest> read_compliance(const SceneTable &any, const Jo
     return std::nullopt;
   if (!any.declared(type.keys).declares("stiffness"))
     throw any.error(given,
-                    "makes a joint of two places yield, not a \"" + type.name +
-                        "\"; for that use a spring-damper `on` a [measure] of type " +
+                    "applies to a joint of two points, not to a \"" + type.name +
+                        "\"; use a spring-damper `on` a [measure] of type " +
                         (type.drawn == JointType::Drawn::bar ? "\"distance\"" : "\"sum\" or \"position function\""));
   if (!table.has("stiffness"))
-    throw any.error("needs 'stiffness' beside '" + std::string(given) + "'; a joint without any is ideal");
+    throw any.error("needs 'stiffness' in addition to '" + std::string(given) +
+                    "'; a joint without stiffness is ideal");
   if (any.has("friction"))
-    throw any.error("friction", "is that of an ideal joint, whose force closes it; beside a compliant one put an "
-                                "element of type \"friction\", or use a \"journal bearing\"");
+    throw any.error("friction", "is for ideal joints only; for a compliant joint add an element of type \"friction\", "
+                                "or use a \"journal bearing\"");
   auto compliance      = table.filled<ComplianceRequest>();
   compliance.stiffness = read_directed(table, "stiffness", kind::stiffness, compliance);
   compliance.damping   = read_directed(table, "damping", kind::damping, compliance);
   if (compliance.stiffness == Vector3{})
-    throw any.error("stiffness", "is zero in every direction, so that the joint would hold nothing; leave it out");
+    throw any.error("stiffness", "is zero in every direction, so the joint would constrain nothing; remove it");
   return compliance;
 }
 
@@ -116,8 +117,8 @@ std::vector<CompliantJoint::Equation> yielding(const JointRequest &joint, const 
       {
         const double share = demand.measure.a[d] * demand.measure.a[d];
         if (compliance.directed && share > 1e-12 && share < 1. - 1e-12)
-          throw std::invalid_argument("three values of 'stiffness' or 'damping' are those along global axes, but the "
-                                      "joint's own directions lie between them; give one value for all directions");
+          throw std::invalid_argument("three values of 'stiffness' or 'damping' refer to global axes, but the joint "
+                                      "has other directions; give one value for all directions");
         equation.stiffness += share * compliance.stiffness[d];
         equation.damping += share * compliance.damping[d];
       }
@@ -125,16 +126,16 @@ std::vector<CompliantJoint::Equation> yielding(const JointRequest &joint, const 
     {
       turns = true;
       if (!compliance.rotational_stiffness)
-        throw std::invalid_argument("holds a rotation (" + demand.name +
-                                    ") too: it needs 'rotational_stiffness' beside 'stiffness'");
+        throw std::invalid_argument("constrains a rotation (" + demand.name +
+                                    "), so it needs 'rotational_stiffness' in addition to 'stiffness'");
       equation.stiffness = *compliance.rotational_stiffness;
       equation.damping   = compliance.rotational_damping.value_or(0.);
     }
     all.push_back(equation);
   }
   if (!turns && (compliance.rotational_stiffness || compliance.rotational_damping))
-    throw std::invalid_argument("holds no rotation of these bodies; leave out 'rotational_stiffness' and "
-                                "'rotational_damping'");
+    throw std::invalid_argument(
+        "constrains no rotation of these bodies; remove 'rotational_stiffness' and 'rotational_damping'");
   return all;
 }
 

@@ -9,7 +9,7 @@ static void read_distance(const SceneTable &table, const Names &names, JointRequ
 {
   static const std::vector<Key> of_one_point = one_point();
   if (table.declared(of_one_point).has("at"))
-    throw table.error("at", "is one point, but a distance lies between two; give 'at_from' and 'at_to'");
+    throw table.error("at", "is one point, but a distance needs two; give 'at_from' and 'at_to'");
   read_two_places(table, names, joint);
   if (const auto motion = table.optional_table("motion"))
     joint.law = read_motion(*motion, false);

@@ -21,9 +21,10 @@ void read_carried_gear(const SceneTable &table, const Names &names, JointRequest
     const std::string &marker = first ? joint.from.marker : joint.to.marker;
     const BodyRequest *body   = names.find_body(marker);
     if (!body || body->kind == coupling::BodyKind::point || body->kind == coupling::BodyKind::rigid)
-      throw table.error(key, "a gear couples rotors, sliders and planar bodies by their one angle or displacement");
+      throw table.error(key, "a gear couples angles of rotors and planar bodies, or displacements of sliders");
     if (marker == carrier)
-      throw table.error("carrier", "is '" + carrier + "' like `" + key + "`; it must be what carries the wheels");
+      throw table.error("carrier",
+                        "is '" + carrier + "', the same as `" + key + "`; it must be the carrier of the wheels");
     const bool slides = body->kind == coupling::BodyKind::slider;
     joint.measure.terms.push_back(
         {first ? -joint.ratio : 1., difference(marker, carrier, body->axis, !slides), nullptr});
@@ -69,12 +70,12 @@ MeasureRequest read_gear_mesh(const SceneTable &table, const Names &names)
     refuse_in_space(table, first ? "from" : "to", marker, names);
     const BodyRequest *body = names.find_body(marker);
     if (turns_about_own_axis(body) && std::abs(std::abs(fem::dot(body->axis, mesh.axis)) - 1.) > 1e-9)
-      throw table.error("axis", "is not that of '" + marker + "'; wheels with teeth in mesh turn about parallel axes");
+      throw table.error("axis", "is not that of '" + marker + "'; meshing wheels rotate about parallel axes");
   }
   if (mesh.ratio == 0. || mesh.ratio == 1.)
-    throw table.error("ratio", "must be neither 0 nor 1: negative of two outer wheels, positive with a ring");
+    throw table.error("ratio", "must not be 0 or 1: negative for two external wheels, positive with a ring gear");
   if (!(std::abs(mesh.pressure_angle) < 0.25 * M_PI))
-    throw table.error("pressure_angle", "must lie between -45 and 45 degrees");
+    throw table.error("pressure_angle", "must be between -45 and 45 degrees");
   measure.mesh = mesh;
   return measure;
 }

@@ -17,8 +17,8 @@ void demand_cylindrical(JointEquations &equations, const JointRequest &joint)
 std::vector<RubbingMotion> slide_and_turn(const JointRequest &joint, const Pair &pair)
 {
   if (!pair.in_space())
-    throw std::invalid_argument("has friction, but neither body is rigid; a pin that turns and slides needs one, "
-                                "others a revolute or prismatic joint");
+    throw std::invalid_argument(
+        "has friction, but neither body is of type \"rigid\"; use one, or a revolute or prismatic joint");
   return {{seen_from_first(vector(joint.axis)), false}, {angle_about(vector(joint.axis)), true}};
 }
 

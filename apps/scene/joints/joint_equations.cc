@@ -235,8 +235,8 @@ void JointEquations::require_closed(const Vector3d &a, double gap) const
   if (std::abs(gap) <= closed * pair_.size())
     return;
   std::ostringstream message;
-  message << "stays open by " << std::abs(gap) << " m along [" << a[0] << ", " << a[1] << ", " << a[2]
-          << "], where neither body can move; let 'at_from' and 'at_to' be one point there, or give 'at' alone";
+  message << "has a gap of " << std::abs(gap) << " m along [" << a[0] << ", " << a[1] << ", " << a[2]
+          << "], where neither body can move; make 'at_from' and 'at_to' coincide in this direction, or give only 'at'";
   throw std::invalid_argument(message.str());
 }
 
@@ -264,7 +264,7 @@ void JointEquations::distance(const JointRequest &joint)
   equation.offset       = joint.length ? *joint.length : pair_.at_start(equation.measure);
   equation.driven       = joint.law != nullptr;
   if (!(equation.offset > 0.))
-    throw std::invalid_argument("the two places lie together, so that a distance has no direction; use a revolute or "
+    throw std::invalid_argument("the two points coincide, so the distance has no direction; use a revolute or "
                                 "spherical joint, or give 'at_from' and 'at_to'");
   list.push_back(equation);
 }
@@ -278,8 +278,7 @@ void JointEquations::gear(double factor)
   const auto add_body   = [&](const Placement &placement, const Body *body, double c)
   {
     if (!body || body->kind == BodyKind::point || body->kind == BodyKind::rigid)
-      throw std::invalid_argument(
-          "a gear couples rotors, sliders and planar bodies by their one angle or displacement");
+      throw std::invalid_argument("a gear couples angles of rotors and planar bodies, or displacements of sliders");
     const Vector3d a = vector(body->axis);
     for (int i = 0; i < placement.n_measures(); ++i)
       equation.measure.ratios.push_back(

@@ -24,7 +24,7 @@ void read_coefficients(const SceneTable &own, Friction &friction)
   friction.stribeck_speed    = own.value_or("stribeck_speed", 0.);
   friction.stribeck_exponent = own.value_or("stribeck_exponent", friction.stribeck_exponent);
   if (friction.static_force < friction.kinetic_force)
-    throw own.error("static", "is below 'coefficient'; what slides would hold more than what sticks");
+    throw own.error("static", "is below 'coefficient'; static friction must be at least the kinetic one");
 }
 
 mechanism::LuGreFriction::Parameters read_bristles(const SceneTable &own)
@@ -32,11 +32,12 @@ mechanism::LuGreFriction::Parameters read_bristles(const SceneTable &own)
   mechanism::LuGreFriction::Parameters friction;
   read_coefficients(own, friction);
   if (friction.kinetic_force == 0.)
-    throw own.error("coefficient", "must be positive: bristles without friction hold nothing; leave the friction out");
+    throw own.error("coefficient", "must be positive; without friction, remove this table");
   friction.bristle_stiffness = own.value("bristle_stiffness");
   friction.bristle_damping   = own.value("bristle_damping");
   if (friction.static_force > friction.kinetic_force && friction.stribeck_speed == 0.)
-    throw own.error("needs 'stribeck_speed', over which the coefficient falls from the static to the kinetic one");
+    throw own.error(
+        "needs 'stribeck_speed', the speed over which the coefficient falls from static to kinetic friction");
   return friction;
 }
 
@@ -80,7 +81,7 @@ std::shared_ptr<const JointFrictionRequest> read_joint_friction(const SceneTable
   const FrictionForm &form = type.friction;
   if (!form.motions)
     throw table.error("friction", "is for joints of type \"revolute\", \"prismatic\", \"cylindrical\", \"spherical\" "
-                                  "and \"in-plane\"; at others put an element of type \"friction\" beside the joint");
+                                  "and \"in-plane\"; for others add an element of type \"friction\" to the joint");
   if (form.turns && !table.is_table("friction"))
     throw table.error("friction", "needs the radius of the surface that slides; write { coefficient = 0.1, radius = "
                                   "\"20 mm\" }");
@@ -88,9 +89,10 @@ std::shared_ptr<const JointFrictionRequest> read_joint_friction(const SceneTable
   const auto           own = table.is_table("friction") ? table.optional_table("friction") : std::nullopt;
   const std::string    law = own ? own->choice("law") : "smooth";
   if (law != "smooth" && !form.sticks)
-    throw own->error("law", "is \"" + law +
-                                "\", which is for revolute and prismatic joints, of one motion; leave it out: "
-                                "\"smooth\" creeps instead of sticking");
+    throw own->error(
+        "law",
+        "is \"" + law +
+            "\", which is for revolute and prismatic joints only; remove it: \"smooth\" creeps instead of sticking");
   if (law == "dry")
     read_coefficients(*own, friction.dry.emplace());
   else if (law == "lugre")
@@ -113,7 +115,7 @@ RelativeMeasure rotation_of_pin(const Pair &pair, const mechanism::Vector3d &axi
     if (!body && other && other->kind == coupling::BodyKind::rotor)
       body = other;
   if (!body)
-    throw std::invalid_argument("has friction, but neither body is planar or a rotor, whose axis a pin turns about");
+    throw std::invalid_argument("has friction, but neither body is a planar body or a rotor");
   return rotation_about(pair, vector(body->axis), 1.);
 }
 
@@ -152,10 +154,11 @@ coupling::Measure constant_motion(const Pair &pair, const RubbingMotion &rubbing
   using coupling::operator+, coupling::operator*; // a Measure is a plain vector, so the namespace does not tell
   const bool constant = rubbing.turns ? !pair.in_space() : !turns_far(pair.on_first) || !turns_far(pair.on_second);
   if (!constant)
-    throw std::invalid_argument(rubbing.turns ? "has friction of law \"dry\", which can stop planar bodies and rotors, "
-                                                "but not a free spatial body; use \"lugre\", or \"smooth\""
-                                              : "has friction of law \"dry\", which needs a body that does not rotate, "
-                                                "but here both bodies rotate; use \"lugre\", or \"smooth\"");
+    throw std::invalid_argument(
+        rubbing.turns
+            ? "has friction of law \"dry\", which is not possible for a free spatial body; use \"lugre\" or \"smooth\""
+            : "has friction of law \"dry\", which needs a body that does not rotate, "
+              "but here both bodies rotate; use \"lugre\", or \"smooth\"");
   const double      zero[mechanism::PlacedMeasure::max_measures] = {};
   double            gradient[mechanism::PlacedMeasure::max_measures];
   coupling::Measure u;
@@ -176,7 +179,7 @@ void add_joint_friction(coupling::MachineModel &machine, const JointRequest &joi
   for (const mechanism::IdealJoint::Equation &equation : equations)
     ++(equation.unit == "N" ? load.n_forces : load.n_torques);
   if (form.turns && pair.has_point())
-    throw std::invalid_argument("has friction, but one body is a point, which has no rotation that could rub");
+    throw std::invalid_argument("has friction, but one body is a point, which has no rotation");
   const std::vector<RubbingMotion> motions = form.motions(joint, pair);
   if (friction.dry)
     machine.attach_friction(std::make_shared<FrictionInJoint<mechanism::CoulombFriction>>(*friction.dry, load, r),

@@ -45,8 +45,8 @@ Key axis_key(const std::string &meaning)
 void check_two_places(const SceneTable &table, const PlaceRequest &from, const PlaceRequest &to)
 {
   if (from.marker == to.marker)
-    throw table.error("to",
-                      "lies on '" + to.marker + "' like `from`; it needs two bodies that can move against each other");
+    throw table.error("to", "is on '" + to.marker +
+                                "', the body of `from`; a joint needs two bodies that can move relative to each other");
 }
 
 void read_two_places(const SceneTable &table, const Names &names, JointRequest &joint)
@@ -62,7 +62,7 @@ void read_two_places(const SceneTable &table, const Names &names, JointRequest &
 void read_joined_places(const SceneTable &table, const Names &names, JointRequest &joint)
 {
   if (table.has("at") && (table.has("at_from") || table.has("at_to")))
-    throw table.error("at", "says where the joint is on both bodies; leave out 'at_from' and 'at_to'");
+    throw table.error("at", "already gives the point of the joint on both bodies; remove 'at_from' and 'at_to'");
   read_two_places(table, names, joint);
   if (!joint.to.at)
     joint.to.at = joint.from.at;
@@ -92,8 +92,8 @@ void refuse_in_space(const SceneTable &table, const std::string &key, const std:
 {
   if (turns_freely(names, marker))
     throw table.error(key, "'" + marker +
-                               "' is a rigid body, whose turns are not counted; put a rotor between, which a "
-                               "joint of type \"rigid\" holds to it");
+                               "' is a rigid body, whose revolutions are not counted; add a rotor that is connected to "
+                               "it by a joint of type \"rigid\"");
 }
 
 } // namespace gestell::apps

@@ -28,7 +28,7 @@ MeasureRequest read_between(const SceneTable &table, const Names &names, Form fo
   measure.first  = names.place(table, "from", "at_from");
   measure.second = names.place(table, "to", "at_to", "ground");
   if (measure.first.marker == measure.second.marker)
-    throw table.error("to", "lies on '" + measure.second.marker + "' like `from`; what is measured would never change");
+    throw table.error("to", "is on '" + measure.second.marker + "', the body of `from`; the measure would be constant");
   return measure;
 }
 
@@ -42,7 +42,7 @@ Carrier read_carrier(const SceneTable &table, const Names &names, const MeasureR
     return Carrier::first;
   if (carrier == along.second.marker)
     return Carrier::second;
-  throw table.error("carried_by", "is '" + carrier + "', but the direction can turn with `from` or `to` only, '" +
+  throw table.error("carried_by", "is '" + carrier + "', but the direction can rotate with `from` or `to` only, '" +
                                       along.second.marker + "' or '" + along.first.marker + "'");
 }
 
@@ -63,7 +63,7 @@ MeasureRequest read_inclination(const SceneTable &table, const Names &names)
 {
   const auto line = read_between(table, names, Form::inclination, "rad");
   if (std::abs(fem::dot(line.a, line.b)) > 1e-9)
-    throw table.error("towards", "must be at right angles to 'zero': the angle grows from there to here");
+    throw table.error("towards", "must be perpendicular to 'zero', from which the angle grows towards it");
   return line;
 }
 

@@ -42,7 +42,7 @@ void check_own_axis(const SceneTable &table, const Names &names, const JointRequ
   {
     const BodyRequest *body = names.find_body(place->marker);
     if (turns_about_own_axis(body) && std::abs(dot(axis, body->axis)) < 1. - 1e-9)
-      throw table.error("axis", "'" + body->name + "' turns about another axis only, its own; leave 'axis' out");
+      throw table.error("axis", "'" + body->name + "' rotates about its own axis only; remove 'axis'");
   }
 }
 
@@ -56,9 +56,9 @@ void check_one_axis(const SceneTable &table, const Names &names, const JointRequ
   if (cosine > 1. - 1e-12) // rounding of unit vectors
     return;
   std::ostringstream text;
-  text << "'" << first->name << "' and '" << second->name << "' turn about axes that lie "
+  text << "'" << first->name << "' and '" << second->name << "' rotate about axes that are "
        << std::acos(std::min(1., cosine)) * 180. / M_PI
-       << " deg apart, but a revolute joint has one; use \"spherical\" where they only meet in a point";
+       << " deg apart, but a revolute joint has one axis; use \"spherical\" if they only share a point";
   throw table.error("type", text.str());
 }
 
@@ -103,7 +103,7 @@ void read_universal(const SceneTable &table, const Names &names, JointRequest &j
   read_one_point(table, names, joint);
   refuse_points(table, names, joint);
   if (std::abs(fem::dot(joint.axis, joint.axis_to)) > 1e-9)
-    throw table.error("axis_to", "must be at right angles to 'axis_from': they are the two bars of the cross");
+    throw table.error("axis_to", "must be perpendicular to 'axis_from': both are the axes of the cross");
 }
 
 void demand_universal(JointEquations &equations, const JointRequest &joint)

@@ -39,7 +39,8 @@ void check_no_skew_axis(const SceneTable &table, const Names &names, const std::
     return;
   const double cosine = std::abs(fem::dot(axis, body->axis));
   if (cosine > 1e-9 && cosine < 1. - 1e-9)
-    throw table.error("axis", "lies askew to the axis of '" + marker + "', about which alone it turns; give that one");
+    throw table.error("axis",
+                      "is not parallel to the axis of '" + marker + "', about which it rotates; give that axis");
 }
 
 void read_screw(const SceneTable &table, const Names &names, JointRequest &joint)
@@ -51,7 +52,7 @@ void read_screw(const SceneTable &table, const Names &names, JointRequest &joint
     check_no_skew_axis(table, names, place->marker, joint.axis);
   const double pitch = table.value("pitch");
   if (pitch == 0.)
-    throw table.error("pitch", "is zero; give the way of one turn, negative for a left-handed thread");
+    throw table.error("pitch", "is zero; give the advance per revolution, negative for a left-handed thread");
   join_path_and_angle(joint, path(joint.from, joint.to, joint.axis, mechanism::RelativeMeasure::Carrier::first),
                       pitch / (2. * M_PI), difference(joint.to.marker, joint.from.marker, joint.axis, true));
 }
@@ -83,23 +84,22 @@ MotionMeasure read_wheel_and_way(const SceneTable &table, const Names &names, Jo
     throw table.error("from", "'" + joint.from.marker +
                                   "' is not a rotor or planar body; this joint needs one that rotates about its axis");
   if (std::abs(dot(joint.axis, wheel->axis)) > 1e-9)
-    throw table.error("direction", "must be at right angles to the axis of '" + joint.from.marker + "'");
+    throw table.error("direction", "must be perpendicular to the axis of '" + joint.from.marker + "'");
   if (!moves_along(names, joint.from.marker, joint.axis) && !moves_along(names, joint.to.marker, joint.axis))
     throw table.error("direction", "neither '" + joint.from.marker + "' nor '" + joint.to.marker +
-                                       "' can move along it, so that the wheel could not turn; " + way_out);
+                                       "' can move along it, so the wheel could not rotate; " + way_out);
   return difference(joint.from.marker, joint.to.marker, wheel->axis, true);
 }
 
 void read_rolling(const SceneTable &table, const Names &names, JointRequest &joint)
 {
-  const auto angle =
-      read_wheel_and_way(table, names, joint, "make the wheel a planar body, or let what carries it move");
+  const auto angle = read_wheel_and_way(table, names, joint, "make the wheel a planar body, or let its carrier move");
   join_path_and_angle(joint, path(joint.to, joint.from, joint.axis, Carrier::first), table.value("radius"), angle);
 }
 
 void read_rack(const SceneTable &table, const Names &names, JointRequest &joint)
 {
-  const auto angle = read_wheel_and_way(table, names, joint, "give the direction in which the rack moves");
+  const auto angle = read_wheel_and_way(table, names, joint, "give the direction of the rack");
   join_path_and_angle(joint, path(joint.from, joint.to, joint.axis, Carrier::second), table.value("radius"), angle);
 }
 

@@ -45,11 +45,12 @@ bool leaves_turns(const Expression &e)
 {
   const Expression &other = counts_shaft_turns(a) ? b : a;
   if (other.counts == Counts::pi)
-    fail(verb + " turns of a shaft (1/min, rpm) and pi: 2 pi is counted already where they become an angular speed; "
-                "leave pi out, or write the frequency in Hz");
-  fail(verb + " turns of a shaft (1/min, rpm) and " +
+    fail(verb + " revolutions (1/min, rpm) and pi, but the factor 2 pi is already included in their angular speed; "
+                "remove pi, or write the frequency in Hz");
+  fail(verb + " revolutions (1/min, rpm) and " +
        (other.counts == Counts::radians ? "radians" : describe(other.dimension)) +
-       ", where turns or radians could be meant; write the speed in rad/s, \"(2*pi*25) rad/s\", or in Hz, \"25 Hz\"");
+       ", where revolutions or radians could be meant; write the speed in rad/s, \"(2*pi*25) rad/s\", or in Hz, \"25 "
+       "Hz\"");
 }
 
 Dimension sum(const Dimension &a, const Dimension &b, int sign)
@@ -72,7 +73,7 @@ Expression alike(const Expression &a, const Expression &b, const std::string &ve
   const bool b_nothing = b.is_zero() && equal(b.dimension, {});
   if (a.checked && b.checked && !a_nothing && !b_nothing && !equal(a.dimension, b.dimension))
     fail(verb + " " + describe(b.dimension) + " " + preposition + " " + describe(a.dimension) +
-         "; both must be of one kind");
+         "; both must have the same dimension");
   // The operand with a known dimension determines the dimension of the result.
   Expression c = a_nothing || (!a.checked && b.checked && !b_nothing) ? b : a;
   c.counts     = joined(a.counts, b.counts);
@@ -80,9 +81,8 @@ Expression alike(const Expression &a, const Expression &b, const std::string &ve
     return c;
   const Expression &other = counts_shaft_turns(a) ? b : a;
   if (other.checked && other.counts != Counts::radians)
-    fail(verb + " turns of a shaft (1/min, rpm) " + preposition +
-         " what may count turns or radians; write all in "
-         "1/min or all in rad/s");
+    fail(verb + " revolutions (1/min, rpm) " + preposition +
+         " a value that may be in revolutions or radians; write all in 1/min or all in rad/s");
   c.counts = Counts::radians; // a plain number of [parameters] is in rad/s
   return c;
 }
@@ -100,11 +100,11 @@ Expression elementary(const std::string &name, Function f, const Expression &x)
     fail("takes " + name + "() of " + describe(x.dimension) + "; it needs a plain number or an angle");
   const bool of_angle = name == "sin" || name == "cos" || name == "tan";
   if (counts_shaft_turns(x) && !of_angle)
-    fail("takes " + name + "() of turns of a shaft (1/min, rpm); it needs a plain number");
+    fail("takes " + name + "() of revolutions (1/min, rpm); it needs a plain number");
   if (x.counts == Counts::minutes && of_angle)
     fail("takes " + name +
-         "() of what is made with minutes or hours and may count turns; write 1500/min in front for "
-         "turns of a shaft, or seconds");
+         "() of a value with minutes or hours, which may count revolutions; write 1500/min first for revolutions, or "
+         "use seconds");
   return {applied(f, x.formula), {}, x.checked, Counts::nothing};
 }
 
@@ -189,7 +189,7 @@ Expression raised(const Expression &a, const Expression &exponent)
   if (!is_number(exponent))
     fail("has an exponent with a unit");
   if (counts_shaft_turns(a))
-    fail("raises turns of a shaft (1/min, rpm) to a power; write the speed in rad/s or Hz");
+    fail("raises revolutions (1/min, rpm) to a power; write the speed in rad/s or Hz");
   if (!exponent.is_value())
   {
     if (!is_number(a))
@@ -234,7 +234,7 @@ Expression called(const std::string &name, const std::vector<Expression> &x)
     if (x[0].is_value() && x[0].formula.constant() < 0.)
       fail("takes the root of a negative number");
     if (counts_shaft_turns(x[0]))
-      fail("takes the root of turns of a shaft (1/min, rpm); write the speed in rad/s or Hz");
+      fail("takes the root of revolutions (1/min, rpm); write the speed in rad/s or Hz");
     return {power(x[0].formula, 0.5), multiple(x[0].dimension, 0.5), x[0].checked, x[0].counts};
   }
   return elementary(name, elementary_functions().at(name), x[0]);

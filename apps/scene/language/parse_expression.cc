@@ -109,7 +109,7 @@ private:
       const std::string whole = tokens_[next_ - 1].text;
       fail(whole.find('.') == std::string::npos
                ? "has a decimal comma; write " + whole + "." + token(1).text
-               : "has a decimal comma; decimals have a point, and nothing stands between thousands");
+               : "has a decimal comma; write a decimal point, and no separator between thousands");
     }
   }
 
@@ -196,7 +196,7 @@ private:
       number_with_unit_            = false;
       const Expression b           = factor();
       if (over && number_with_unit_)
-        fail("can be read in two ways: put what stands after '/' in parentheses, or what stands before its unit", sign);
+        fail("is ambiguous: put the part after '/' or the part before its unit in parentheses", sign);
       a = at(sign, [&] { return per_minute ? shaft_turns(a, b) : over ? divided(a, b) : multiplied(a, b); });
     }
     return a;
@@ -231,7 +231,7 @@ private:
     const bool        unit_before = std::exchange(number_with_unit_, false);
     const Expression  exponent    = factor();
     if (number_with_unit_)
-      fail("has a unit behind its exponent; write 1e-3 mm, or put the power in parentheses", sign);
+      fail("has a unit after its exponent; write 1e-3 mm, or put the power in parentheses", sign);
     if (base.checked && exponent.checked)
       number_with_unit_ = unit_before;
     return at(sign, [&] { return raised(base, exponent); });
@@ -346,8 +346,7 @@ private:
       if (per && is_operand(token(1).text))
         ambiguous_name(token(1).text);
       if (divided && !per)
-        fail("can be read in two ways; put the units below the line in parentheses, \"N/(m s)\", or above it, \"N "
-             "s/m\"");
+        fail("is ambiguous; write \"N/(m s)\" or \"N s/m\"");
       const std::size_t begin = next_;
       next_ += per ? 1 : reciprocal ? 2 : 0;
       const Expression unit   = unit_power();

@@ -70,15 +70,14 @@ void check_counts(Counts counts, const Kind &kind, const std::string &needs_and_
   const bool        radians = kind.refused == Counts::turns, hertz = kind.refused == Counts::radians;
   const std::string write_radians = "; write 1/min, rpm or rad/s";
   if (counts == Counts::turns && radians)
-    throw std::invalid_argument(needs_and_text + ", which counts turns" + write_radians);
+    throw std::invalid_argument(needs_and_text + ", which counts revolutions" + write_radians);
   if (counts == Counts::radians && hertz)
     throw std::invalid_argument(needs_and_text + ", which counts radians; write Hz or 1/min");
   if (counts == Counts::minutes && radians)
-    throw std::invalid_argument(needs_and_text +
-                                ", which is made with minutes or hours and may count turns; write 1500/min for turns "
-                                "of a shaft, rad/min or seconds for radians");
+    throw std::invalid_argument(needs_and_text + ", which contains minutes or hours and may count revolutions; write "
+                                                 "1500/min for revolutions, rad/min or seconds for radians");
   if (counts == Counts::shaft_turns && !radians && !hertz)
-    throw std::invalid_argument(needs_and_text + ", which counts turns of a shaft (1/min, rpm)");
+    throw std::invalid_argument(needs_and_text + ", which counts revolutions (1/min, rpm)");
 }
 
 } // namespace
@@ -98,7 +97,7 @@ void check_kind(const Quantity &q, bool is_zero, const Kind &kind, const std::st
     fits = true; // zero of anything is zero
   if (!fits && equal(q.dimension, {}))
     throw std::invalid_argument(needs + "\"" + text +
-                                "\" without a unit; a plain number in SI units stands without quotes");
+                                "\" without a unit; write a plain number in SI units without quotes");
   if (!fits)
     throw std::invalid_argument(needs + "\"" + text + "\", " + shown);
   if (!is_zero)

@@ -45,8 +45,8 @@ std::string Names::marker(const SceneTable &table, const std::string &key) const
   if (std::find(valid.begin(), valid.end(), name) != valid.end() || (any_interface_ && name.rfind("frame.", 0) == 0))
     return name;
   if (const auto point = places_.find(name); point != places_.end())
-    throw table.error(key, "'" + name + "' is a place, but this acts on a whole body; name '" + point->second.marker +
-                               "', on which it lies");
+    throw table.error(key, "'" + name + "' is a marker, but this key needs a whole body; name its body '" +
+                               point->second.marker + "'");
   const bool of_frame = name.rfind("frame.", 0) == 0;
   throw table.error(key, of_frame ? "the frame has no interface '" + name.substr(6) + "'" +
                                         (interfaces_.empty()
@@ -164,7 +164,8 @@ const BodyRequest &Names::body(const SceneTable &table, const std::string &key, 
   for (const auto &body : bodies_)
     if (body.kind == kind)
       valid.push_back(body.name);
-  throw table.error(key, found ? "'" + name + "' is no " + words + ", but one is needed here" + suggestion(name, valid)
+  throw table.error(key, found ? "'" + name + "' is not a " + words + "; a " + words + " is needed here" +
+                                     suggestion(name, valid)
                                : "there is no " + words + " '" + name + "'" + suggestion(name, valid));
 }
 
@@ -174,7 +175,7 @@ void check_thing_name(const SceneTable &table)
   if (name.empty() || name.find('.') != std::string::npos || name[0] == '-')
     throw table.error("a name must not be empty, contain dots or begin with '-': signals refer to it as NAME.quantity");
   if (name == "frame" || name == "ground")
-    throw table.error("'" + name + "' has a meaning of its own; choose another name");
+    throw table.error("'" + name + "' is a reserved name; choose another one");
 }
 
 } // namespace gestell::apps

@@ -81,10 +81,10 @@ Clearance::Parameters read_contact(const SceneTable &table, bool turns)
   table.fill(contact, turns);
   contact.stiffness = table.positive("stiffness", stiffness_of(contact.exponent, turns));
   if (table.has("restitution") != table.has("impact_speed"))
-    throw table.error("needs 'restitution' and 'impact_speed' together: how much of its speed a body keeps depends on "
-                      "how fast it comes");
+    throw table.error(
+        "needs 'restitution' and 'impact_speed' together, because restitution depends on the impact speed");
   if (table.has("restitution") && table.has("dissipation"))
-    throw table.error("restitution", "says the same as 'dissipation'; give one of them");
+    throw table.error("restitution", "means the same as 'dissipation'; give only one of them");
   if (table.has("restitution"))
   {
     const double e      = table.positive("restitution", kind::number);
@@ -109,10 +109,10 @@ mechanism::SlidingFriction read_sliding_friction(const SceneTable &any)
   const SceneTable own = table.table("friction");
   own.fill(friction);
   if (own.has("static") != own.has("stribeck_speed"))
-    throw own.error("needs 'static' and 'stribeck_speed' together: from where the coefficient falls, and over which "
-                    "speed");
+    throw own.error(
+        "needs 'static' and 'stribeck_speed' together: the static coefficient and the speed over which it falls");
   if (own.has("static") && friction.static_coefficient < friction.kinetic)
-    throw own.error("static", "is below 'coefficient'; what slides would hold more than what sticks");
+    throw own.error("static", "is below 'coefficient'; static friction must be at least the kinetic one");
   return friction;
 }
 

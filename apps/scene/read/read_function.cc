@@ -56,9 +56,9 @@ void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::Cub
     return;
   std::ostringstream text;
   text.precision(3);
-  text << "the spline swings " << by << " beyond the rows on both sides of it at " << at << ", by " << 100. * worst
-       << " % of the steps between rows there (of a level stretch, of what all rows range over); give more rows where "
-          "the course bends, or round it";
+  text << "the spline overshoots by " << by << " the adjacent rows at " << at << ", by " << 100. * worst
+       << " % of the steps between rows there (of a level stretch, of what all rows range over); add rows where the "
+          "curve bends, or smooth it";
   table.warn("table", text.str());
 }
 
@@ -94,7 +94,7 @@ void close(const SceneTable &table, const PositionFunction::Period &period,
   const double     end = first.x + period.length, value = first.f + period.rise;
   constexpr double as_written = 1e-9; // of the period and of the values: what few digits leave of a table that closes
   if (last.x > end + as_written * period.length)
-    throw table.error("table", "goes further than one period; give the rows of one, from the first on");
+    throw table.error("table", "covers more than one period; give the rows of one period only");
   if (last.x >= end - as_written * period.length)
   {
     double largest = std::abs(period.rise); // a last row may be zero only up to rounding, as sin 2 pi is
@@ -103,7 +103,7 @@ void close(const SceneTable &table, const PositionFunction::Period &period,
     if (std::abs(last.f - value) > as_written * largest)
       throw table.error("table", "does not close: its last row, one period after the first, is " + short_text(last.f) +
                                      ", but must be the value of the first row plus 'rise', " + short_text(value) +
-                                     "; correct it or leave it out");
+                                     "; correct this row or remove it");
     points.back().f = value;
   }
   else
@@ -117,8 +117,7 @@ std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, c
 {
   const bool formula = table.has("function");
   if (formula == table.has("table"))
-    throw table.error("needs 'function', a formula of " + variable.name +
-                      ", or 'table', rows of two values; one of both");
+    throw table.error("needs either 'function', a formula of " + variable.name + ", or 'table', rows of two values");
   std::optional<PositionFunction::Period> period;
   if (table.has("period"))
   {
@@ -166,9 +165,8 @@ void refuse_jumps(const SceneTable &table, const PositionFunction &f, const Kind
   std::ostringstream text;
   text << jump->what << " jumps from " << jump->before << " to " << jump->after << " at "
        << (turns ? at * 180. / M_PI : at) << (turns ? " deg" : "") << " (" << jump->kink
-       << "), an impact that an ideal joint cannot carry; round the course off there, or let it act through a spring: "
-          "an "
-          "element on a measure of type \"position function\", instead of the joint";
+       << "), an impact that an ideal joint cannot transmit; smooth the function there, or let it act through a "
+          "spring: an element on a measure of type \"position function\", instead of the joint";
   throw table.error("function", text.str());
 }
 

@@ -98,7 +98,7 @@ void check_speed_of_waves(const SceneTable &table, const fem::Material &material
   constexpr double slowest = 2300., fastest = 14000., light = 2000., heavy = 10000.;
   const double     speed = std::sqrt(material.E / material.rho);
   if (speed > fastest || (speed < slowest && material.rho > light && material.rho < heavy))
-    table.warn("E", "gives with rho = " + short_text(material.rho) + " kg/m^3 a speed of waves sqrt(E/rho) of " +
+    table.warn("E", "gives, with rho = " + short_text(material.rho) + " kg/m^3, a wave speed sqrt(E/rho) of " +
                         short_text(speed) + " m/s; expected: " + short_text(slowest) + " to " + short_text(fastest) +
                         " m/s (steel, aluminium 5100); check the units of E and rho");
 }
@@ -109,7 +109,7 @@ fem::Material material_from(const SceneTable &any)
   auto             material = table.filled<fem::Material>();
   material.place            = table.place();
   if (material.nu <= -1. || material.nu >= 0.5)
-    throw table.error("nu", "Poisson's ratio must lie above -1 and below 0.5; steel has 0.3");
+    throw table.error("nu", "Poisson's ratio must be above -1 and below 0.5; steel has 0.3");
   const bool E_plausible = check_plausible(table, "E", plausible_modulus(), material.E, 5e9, 5e11);
   if (table.has("rho") &&
       check_plausible(table, "rho", plausible_density(), material.rho, lightest_common, heaviest_common) && E_plausible)

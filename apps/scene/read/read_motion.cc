@@ -67,7 +67,7 @@ std::vector<Key> motion_law_keys()
 std::shared_ptr<const mechanism::MotionLaw> read_motion(const SceneTable &table, bool turns)
 {
   if (table.has("speed") && (table.has("function") || table.has("table")))
-    throw table.error("speed", "says the same as 'function' or 'table'; give one of them");
+    throw table.error("speed", "means the same as 'function' or 'table'; give only one of them");
   if (table.has("speed"))
     return read_speed(table, turns);
   if (!table.has("function") && !table.has("table"))

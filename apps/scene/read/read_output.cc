@@ -25,7 +25,7 @@ std::vector<std::string> stage_names(const SceneTable &stages, std::size_t n_bor
   if (names.size() != n_borders + 1)
     throw stages.error("names", std::to_string(names.size()) + " names, but " + count_text(n_borders, "border") +
                                     " part the run into " + std::to_string(n_borders + 1) +
-                                    " stages; give one name more than borders");
+                                    " stages; give one more name than boundaries");
   return names;
 }
 
@@ -76,7 +76,7 @@ void read_stages(const SceneTable &output, Scene &scene)
   require_signals(stages, scene);
   constexpr int most_ringing_modes = 12; // the matrix pencil of noisy rows resolves no more
   if (scene.stages.modes < 1 || scene.stages.modes > most_ringing_modes)
-    throw stages.error("modes", "needs a number between 1 and " + std::to_string(most_ringing_modes));
+    throw stages.error("modes", "needs a number from 1 to " + std::to_string(most_ringing_modes));
 }
 
 namespace
@@ -89,18 +89,17 @@ void require_stresses(const SceneTable &stress, const Scene &scene)
   switch (scene.frame.source)
   {
   case FrameSource::none:
-    throw stress.error("there is no frame, so that there are no stresses; leave [output.stress] out");
+    throw stress.error("there is no frame, so there are no stresses; remove [output.stress]");
   case FrameSource::matrices:
-    throw stress.error(
-        "a frame given by matrices has no material and no elements, so that there are no stresses; give it by 'cad'");
+    throw stress.error("a frame given by matrices has no elements, so stresses cannot be computed; give it by 'cad'");
   case FrameSource::parts:
-    throw stress.error("stresses of a frame of parts are not computed; leave [output.stress] out, or draw the frame in "
+    throw stress.error("stresses of a frame of parts are not available; remove [output.stress], or draw the frame in "
                        "one piece, [frame] cad = ...");
   case FrameSource::reduced_file:
     break; // known when it is read
   case FrameSource::geometry:
     if (!scene.reduction.reduces())
-      throw stress.error("stresses are recovered from the reduced frame; leave out reduction.method = \"none\"");
+      throw stress.error("stresses need a reduced frame; remove reduction.method = \"none\"");
   }
 }
 
@@ -112,8 +111,8 @@ void read_instants(const SceneTable &stress, Scene &scene)
   run.states.at = stress.is_array("at") ? stress.numbers("at", kind::time) : std::vector<double>{stress.value("at")};
   for (const double t : run.states.at)
     if (scene.run.given && !(t >= run.begin && t <= run.end))
-      throw stress.error("at", "the instant " + seconds(t) + " lies outside the run, which goes from " +
-                                   seconds(run.begin) + " to " + seconds(run.end));
+      throw stress.error("at", "the time " + seconds(t) + " is outside the run, which is from " + seconds(run.begin) +
+                                   " to " + seconds(run.end));
   std::sort(run.states.at.begin(), run.states.at.end());
   for (std::size_t i = 0; i < run.states.at.size(); ++i)
     scene.stress.instants.push_back({"", StressInstant::time, static_cast<int>(i)});
@@ -132,7 +131,7 @@ void read_extremes(const SceneTable &stress, const std::string &key, Scene &scen
     if (key == "largest" && name == the_stress)
     {
       if (signal != valid.end())
-        throw stress.error(key, "'stress' is the stress itself, but a signal has this name, too; rename the signal");
+        throw stress.error(key, "'stress' means the stress itself, but a signal also has this name; rename the signal");
       scene.stress.instants.push_back({"largest stress", StressInstant::largest_stress, 0});
       continue;
     }
@@ -154,7 +153,7 @@ const std::vector<Key> &stress_keys()
   static const std::vector<Key> keys = {
       key::number("at", kind::time, "instant").also({Key::Form::numbers}).by_default("none"),
       key::plain("largest", Key::Form::texts,
-                 "signals at whose maximum stresses are written; `\"stress\"`: at the instant of the largest "
+                 "signals at whose maximum stresses are written; `\"stress\"`: at the time of the largest "
                  "equivalent stress, see `step`")
           .by_default("`\"stress\"` if no other instant is requested"),
       key::plain("smallest", Key::Form::texts, "signals at whose minimum stresses are written").by_default("none"),
@@ -242,8 +241,9 @@ static void read_window(const SceneTable &table, Scene &result)
     throw table.error("from", "there is no '" + text + "'; did you mean '" + last_period + "'?");
   run.from = table.value_or("from", run.from);
   if (table.has("from") && run.from < run.begin)
-    throw table.error("from", "is " + short_text(run.from) + " s, before the run begins at " + short_text(run.begin) +
-                                  " s; give a time within the run, or leave it out for the whole run");
+    throw table.error("from", "is " + short_text(run.from) + " s, before the start of the run at " +
+                                  short_text(run.begin) +
+                                  " s; give a time within the run, or omit the key for the whole run");
 }
 
 /// Arguments of functions may be other signals, by their name.
@@ -274,7 +274,7 @@ void read_output(const SceneTable &scene, Scene &result)
     {
       for (const SignalRequest &other : result.signals)
         if (other.name == path)
-          throw table.error("signals", "'" + path + "' is in the list twice");
+          throw table.error("signals", "'" + path + "' is a duplicate in the list");
       result.signals.push_back({path, path, table.place("signals"), ""});
     }
   else if (const auto signals = table.optional_table("signals"))

@@ -43,20 +43,19 @@ void check_keys(const SceneTable &table, coupling::BodyKind kind)
     if (table.has(key))
       throw table.error(key, why);
   };
-  refuse("inertia", "follows from the shape in `cad`; leave out one of them");
-  refuse("principal_axes", "follow from the shape in `cad`; leave them out");
+  refuse("inertia", "follows from the shape in `cad`; remove 'inertia' or 'cad'");
+  refuse("principal_axes", "follow from the shape in `cad`; remove them");
   for (const std::string key : {"radius", "size"})
-    refuse(key, "is not needed: the body is drawn as its `cad` shows it; leave it out");
+    refuse(key, "is not needed: the body is drawn as its `cad` shows it; remove it");
   const int densities = table.has("material") + table.has("density") + table.has("mass");
   if (densities != 1)
-    throw table.error(
-        densities == 0 ? "has a shape in `cad` and no density; give one of 'material' (such as \"steel\"), 'density' "
-                         "and 'mass', which is spread evenly"
-                       : "has more than one of 'material', 'density' and 'mass', each of which tells the density of "
-                         "the shape in `cad`; leave one of them");
+    throw table.error(densities == 0 ? "has a shape in `cad` and no density; give one of 'material' (such as "
+                                       "\"steel\"), 'density' and 'mass' (uniformly distributed)"
+                                     : "has more than one of 'material', 'density' and 'mass', each of which defines "
+                                       "the density of the shape in `cad`; keep one of them");
   if (kind != coupling::BodyKind::rotor)
     refuse("position", "is the centre of mass of the shape in `cad`; move the part by placement = { origin = [x, y, z] "
-                       "}, or leave it out");
+                       "}, or remove it");
 }
 
 double read_density(const SceneTable &table, const SceneTable &scene, double volume)
@@ -131,8 +130,8 @@ void read_rotor(const SceneTable &table, BodyRequest &body)
     return;
   std::ostringstream text;
   text.precision(3);
-  text << "the centre of mass lies " << 1e3 * eccentricity
-       << " mm beside the axis; a rotor is balanced all the same. If that matters give it unbalance = \""
+  text << "the centre of mass is " << 1e3 * eccentricity
+       << " mm off the axis, but a rotor is balanced. To include the unbalance, set unbalance = \""
        << 1e3 * body.mass * eccentricity << " g m\", or make it a planar or rigid body";
   table.warn("cad", text.str());
 }
@@ -169,7 +168,7 @@ coupling::Placement read_placement(const SceneTable &table)
   placement.at = vector(inner->vector_or("origin", {}));
   if (inner->has("axis") != inner->has("angle"))
     throw inner->error(inner->has("axis") ? "has an axis and no angle" : "has an angle and no axis",
-                       "the part is turned by `angle` about `axis` through the file's origin; give both");
+                       "the part is rotated by `angle` about `axis` through the origin of the file; give both");
   if (inner->declares("mirror") && inner->has("mirror"))
   {
     const Vector3d n = vector(inner->direction("mirror"));

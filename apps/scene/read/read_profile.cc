@@ -143,10 +143,10 @@ std::shared_ptr<mechanism::InputValue> read_input(const SceneTable &table, const
     throw course.error("input", "is '" + name + "'; an input needs a name without quotes, <, > and &");
   for (const std::string &other : course.keys())
     if (other != "input")
-      throw course.error(other, "is of no meaning for an input, which follows what sets it; leave out '" + other +
+      throw course.error(other, "has no effect on an input, whose value is set from outside; remove '" + other +
                                     "' or 'input'");
   if (table.boolean("waits", false))
-    throw table.error("waits", "is of no meaning for an input, which follows what sets it; leave it out");
+    throw table.error("waits", "has no effect on an input, whose value is set from outside; remove it");
   return std::make_shared<mechanism::InputValue>(mechanism::InputValue{name, from, 0., 0.});
 }
 

@@ -55,7 +55,7 @@ void refuse_keys_of_other_methods(const SceneTable &run, const IntegrationMethod
         if (has_key(*owner, key))
           owners.push_back(owner->name());
       throw run.error(key, "is a key of " + listed(owners) + ", but the method is '" + method.name() +
-                               "'; leave it out or choose another method");
+                               "'; remove it or choose another method");
     }
 }
 
@@ -87,7 +87,7 @@ void read_parameters(const SceneTable &run, const IntegrationMethod &method, Met
       o.set(parameter.name, run.choice(parameter.name));
   const int order = method.default_order(o);
   if (method.takes_order() && order == 0 && run.has("order"))
-    throw run.error("order", "goes with force = \"collocation\"; the other rules are of second order");
+    throw run.error("order", "needs force = \"collocation\"; the other rules are of second order");
   o.order = run.integer("order", order > 0 ? order : o.order);
 }
 
@@ -102,11 +102,10 @@ void read_steps(const SceneTable &run, const IntegrationMethod &method, MethodOp
     return;
   }
   if (!run.has("step") && method.can_control_error())
-    throw run.error("needs 'step', the fixed step such as \"10 us\", or 'tolerance' such as 1e-6, by which the step "
-                    "is controlled");
+    throw run.error("needs 'step', a fixed step such as \"10 us\", or 'tolerance' such as 1e-6 for step control");
   if (!run.has("step"))
-    throw run.error("needs 'step', the fixed step such as \"10 us\": the method '" + method.name() +
-                    "' does not control it, and that of a former method went with it");
+    throw run.error("needs 'step', a fixed step such as \"10 us\": the method '" + method.name() +
+                    "' has no step control, and the step of the replaced method was removed with it");
   o.step = run.value("step");
 }
 
@@ -227,9 +226,9 @@ RunRequest read_run(const SceneTable &scene, bool in_modes)
   o.method       = read_method_options(table, in_modes);
   run.step_given = !in_modes || table.has("step") || table.has("tolerance");
   if (o.end <= o.begin)
-    throw table.error("end", "must lie after 'begin' (" + seconds(o.begin) + "), got " + seconds(o.end));
+    throw table.error("end", "must be after 'begin' (" + seconds(o.begin) + "), got " + seconds(o.end));
   if (o.method.step > o.end - o.begin)
-    throw table.error("step", "is longer than the run itself, " + seconds(o.end - o.begin));
+    throw table.error("step", "is longer than the run, " + seconds(o.end - o.begin));
   return run;
 }
 

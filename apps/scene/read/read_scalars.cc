@@ -66,7 +66,7 @@ ScalarRequest read_scalar(const SceneTable &table, const std::string &key, const
   if (const MeasureRequest *measure = names.find_measure(name))
   {
     if (measure->function || measure->terms.size() > 1)
-      throw table.error(key, "the measure '" + name + "' is made of others itself; name plain ones");
+      throw table.error(key, "the measure '" + name + "' is itself a sum of measures; name its terms");
     if (!measure->terms.empty())
       return {measure->terms[0], measure->unit, name};
     return {{1., {}, std::make_shared<MeasureRequest>(*measure)}, measure->unit, name};
@@ -89,11 +89,9 @@ static void refuse_wrapping(const SceneTable &table, const std::string &key, con
 {
   using Form = mechanism::RelativeMeasure::Form;
   if (scalar.term.placed && (scalar.term.placed->form == Form::angle || scalar.term.placed->form == Form::inclination))
-    throw table.error(key,
-                      "the angle '" + scalar.name +
-                          "' jumps by a turn where it passes 180 degrees, which tears apart what is made of it; take "
-                          "the angle of a rotor or planar body, or, as `from`, a function with a `period` and no "
-                          "`rise`");
+    throw table.error(key, "the angle '" + scalar.name +
+                               "' wraps at +-180 degrees, so functions of it would jump; use the angle of a rotor or "
+                               "planar body, or, as `from`, a function with a `period` and no `rise`");
 }
 
 MeasureRequest read_position_function(const SceneTable &table, const Names &names, ScalarRequest &x)
@@ -101,11 +99,12 @@ MeasureRequest read_position_function(const SceneTable &table, const Names &name
   x            = read_scalar(table, "from", names);
   const auto y = read_scalar(table, "to", names);
   if (table.text("from") == table.text("to"))
-    throw table.error("to", "is '" + y.name + "' like `from`; a position function leads from one motion to another");
+    throw table.error("to",
+                      "is '" + y.name + "', the same as `from`; a position function needs two different coordinates");
   if (x.term.weight != 1.)
-    throw table.error("from", "'" + x.name +
-                                  "' is a multiple of another motion; name that one, and put the factor into "
-                                  "the function");
+    throw table.error("from",
+                      "'" + x.name +
+                          "' is a multiple of another coordinate; name that one, and put the factor into the function");
   if (!table.has("period") || table.has("rise"))
     refuse_wrapping(table, "from", x);
   refuse_wrapping(table, "to", y);
@@ -157,7 +156,7 @@ MeasureRequest read_sum(const SceneTable &table, const Names &names)
     const std::string unit = equal(sum, kind::length.dimension) ? "m" : equal(sum, kind::angle.dimension) ? "rad" : "";
     if (unit.empty() || (!measure.unit.empty() && unit != measure.unit))
       throw part.table.error("factor",
-                             "makes a term of " + describe(sum) + "; all terms must be lengths, or all angles");
+                             "gives a term of " + describe(sum) + "; all terms must be lengths, or all angles");
     measure.unit = unit;
   };
   for (const auto &part : table.table_array("terms"))
@@ -177,9 +176,8 @@ MeasureRequest read_sum(const SceneTable &table, const Names &names)
     if (measure.unit.empty()) // factors are plain numbers all over
       for (const Part &other : parts)
         if (other.y.unit != part.y.unit)
-          throw part.table.error("factor", "is a number without unit, as all factors here, but the motions are lengths "
-                                           "and angles; give one of the factors its unit, so that it is known what the "
-                                           "sum is");
+          throw part.table.error("factor", "has no unit, like all factors here, but the terms are lengths and angles; "
+                                           "give one factor a unit, which defines the unit of the sum");
     if (measure.unit.empty())
       join(part, part.y.kind().dimension);
     measure.terms.push_back(part.y.term);
@@ -188,8 +186,7 @@ MeasureRequest read_sum(const SceneTable &table, const Names &names)
   if (measure.terms.empty())
     throw table.error("needs 'terms' such as [{ of = \"rack\" }, { of = \"pinion\", factor = \"-40 mm\" }]");
   if (cancel(measure.terms))
-    throw table.error("terms",
-                      "cancel each other: the sum is zero whatever moves; check the motions and their factors");
+    throw table.error("terms", "cancel each other: the sum is always zero; check the terms and their factors");
   return measure;
 }
 

@@ -66,9 +66,8 @@ void make_switched(const SceneTable &table, const std::string &key, ElementReque
   if (can_be_switched(element))
     return;
   if (element.fixed)
-    throw table.error(
-        key, "'" + element.name +
-                 "' cannot be switched off: what it is filled with would stay in it; tell it \"set\" or \"hold\"");
+    throw table.error(key, "'" + element.name +
+                               "' cannot be switched off, because its fluid would remain; use \"set\" or \"hold\"");
   element.element = std::make_shared<SwitchedElement>(element.element, begin);
 }
 
@@ -184,10 +183,9 @@ void read_crossing(const SceneTable &table, SwitchRequest &own)
     if (table.has(key))
     {
       if (!given.empty())
-        throw table.error(
-            key, "cannot be given together with '" + given +
-                     "', but a switch has one value: give 'above' where the signal shall rise over it, 'below' where "
-                     "it shall fall under it, or 'crosses' for both ways; two values need two switches");
+        throw table.error(key, "cannot be given together with '" + given +
+                                   "', but a switch has one threshold: give 'above' for a rising signal, 'below' for a "
+                                   "falling one, or 'crosses' for both; two thresholds need two switches");
       given                = key;
       own.request.crossing = crossing;
     }
@@ -208,7 +206,7 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
   table.fill(own.request);
   own.request.after = table.text("after", "");
   if (own.request.repeat && own.request.signal == "t")
-    throw table.error("repeat", "the time passes its value only once; leave it out");
+    throw table.error("repeat", "the time passes its threshold only once; remove it");
   if (table.has("hysteresis"))
   {
     own.hysteresis         = table.quantity("hysteresis");
@@ -221,10 +219,10 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
       throw table.error("hysteresis", "needs a value of zero or more");
   }
   if (table.has("orders") && (table.has("tell") || table.has("order")))
-    throw table.error("orders", "says the same as 'tell' and 'order'; give one of them");
+    throw table.error("orders", "means the same as 'tell' and 'order'; give only one of them");
   own.request.ends = table.text("ends", "");
   if (table.has("ends") && own.request.ends.empty())
-    throw table.error("ends", "is empty; state what the crossing means, such as \"the crane tips\"");
+    throw table.error("ends", "is empty; give a statement, such as \"the crane tips\"");
   const bool only_ends = table.has("ends") && !table.has("tell") && !table.has("order") && !table.has("orders");
   if (!table.has("orders") && !only_ends)
     own.request.orders = read_order(table, scene);
@@ -252,7 +250,7 @@ void check_chain(const SceneTable &table, const std::vector<SwitchRequest> &swit
     if (name.empty())
       return;
   }
-  throw table.error("after", "the switches wait for each other in a circle, so that none would ever be armed");
+  throw table.error("after", "the switches wait for each other, so none would ever be armed; remove one 'after'");
 }
 
 } // namespace
@@ -336,7 +334,7 @@ void begin_off(const SceneTable &table, Scene &scene)
 {
   const auto elements = elements_called(table.name(), scene);
   if (elements.empty())
-    throw table.error("initially", "it cannot be switched; leave it out");
+    throw table.error("initially", "it cannot be switched; remove it");
   for (ElementRequest *element : elements)
     make_switched(table, "initially", *element, SwitchedElement::Begin::off);
 }

@@ -12,14 +12,13 @@ Eigen::Matrix3d read_axes(const SceneTable &table, const std::string &key)
   const auto      rows = table.matrix(key, kind::number);
   Eigen::Matrix3d axes;
   if (rows.size() != 2 || rows[0].size() != 3)
-    throw table.error(key,
-                      "needs two directions [[x, y, z], [x, y, z]], those of the first two of three values; the third "
-                      "is at right angles to both");
+    throw table.error(
+        key, "needs two directions [[x, y, z], [x, y, z]] of the first two values; the third is perpendicular to both");
   for (int i = 0; i < 2; ++i)
     axes.col(i) = Eigen::Vector3d(rows[i].data());
   const double a = axes.col(0).norm(), b = axes.col(1).norm();
   if (!(a > 0.) || !(b > 0.) || std::abs(axes.col(0).dot(axes.col(1))) > 1e-9 * a * b)
-    throw table.error(key, "needs two directions at right angles to each other");
+    throw table.error(key, "needs two perpendicular directions");
   axes.col(0) /= a;
   axes.col(1) /= b;
   axes.col(2) = axes.col(0).cross(axes.col(1));
@@ -63,7 +62,7 @@ Eigen::Matrix3d read_tensor(const SceneTable &table)
     if (rows.size() != 3 || rows[0].size() != 3)
       throw table.error("inertia", needed);
     if (table.has("principal_axes"))
-      throw table.error("principal_axes", "goes with three moments; a tensor has its axes in itself");
+      throw table.error("principal_axes", "needs three moments; a tensor contains its axes");
     for (int i = 0; i < 3; ++i)
       J.row(i) = Eigen::RowVector3d(rows[i].data());
     return J;

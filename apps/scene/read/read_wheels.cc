@@ -18,12 +18,12 @@ void check_turning(const SceneTable &table, const std::string &key, const BodyRe
 {
   if (body.kind == BodyKind::rigid)
     throw table.error(key, "'" + body.name +
-                               "' is a rigid body, whose turns are not counted; put a rotor between, which a joint of "
-                               "type \"rigid\" holds to it");
+                               "' is a rigid body, whose revolutions are not counted; add a rotor that is connected to "
+                               "it by a joint of type \"rigid\"");
   if (body.kind != BodyKind::rotor && body.kind != BodyKind::planar)
-    throw table.error(key, "'" + body.name + "' does not turn; a wheel is a rotor or a planar body");
+    throw table.error(key, "'" + body.name + "' does not rotate; a wheel is a rotor or a planar body");
   if (std::abs(std::abs(fem::dot(body.axis, axis)) - 1.) > 1e-9)
-    throw table.error("axis", "is not that of '" + body.name + "'; both wheels turn about parallel axes");
+    throw table.error("axis", "is not that of '" + body.name + "'; both wheels must rotate about parallel axes");
 }
 
 PlaceRequest read_wheel(const SceneTable &table, const Names &names, const std::string &key, const Vector3 &axis)
@@ -72,14 +72,15 @@ WheelPair read_wheels(const SceneTable &table, const Names &names, const std::st
   wheels.from = read_wheel(table, names, "from", wheels.axis);
   wheels.to   = read_wheel(table, names, "to", wheels.axis);
   if (wheels.from.marker == wheels.to.marker)
-    throw table.error("to", "lies on '" + wheels.to.marker + "' like `from`; name two bodies");
+    throw table.error("to", "is on '" + wheels.to.marker + "', the body of `from`; name two bodies");
   const Vector3 centres = *wheels.to.at - *wheels.from.at;
   const double  beside  = fem::dot(centres, wheels.axis);
   wheels.distance       = fem::norm(centres - beside * wheels.axis);
   // Written with a few digits, centres miss one plane by rounding; a real offset would twist both bodies.
   if (std::abs(beside) > 1e-6 * wheels.distance)
-    throw table.error("at_to", "the centres of the " + wheel + "s lie in two planes across 'axis', " +
-                                   short_text(std::abs(beside)) + " m apart; give 'at_from' and 'at_to' in one plane");
+    throw table.error("at_to", "the centres of the " + wheel + "s are in two planes normal to 'axis', " +
+                                   short_text(std::abs(beside)) +
+                                   " m apart; give 'at_from' and 'at_to' in the same plane");
   return wheels;
 }
 

@@ -38,10 +38,10 @@ std::string stator_of(const SceneTable &table, const Names &names, const BodyReq
 {
   const std::string stator = names.marker(table, "to", shaft.carrier.empty() ? "ground" : shaft.carrier);
   if (stator == shaft.name)
-    throw table.error("to", "is '" + stator + "' like `on`; a motor turns its shaft against what carries it");
+    throw table.error("to", "is '" + stator + "', the same as `on`; a motor acts between a shaft and its carrier");
   const BodyRequest *body = names.find_body(stator);
   if (body && body->kind == coupling::BodyKind::point)
-    throw table.error("to", "'" + stator + "' is a point, which has no rotation; name what else holds the motor");
+    throw table.error("to", "'" + stator + "' is a point, which has no rotation; name another carrier of the motor");
   if (body && body->kind == coupling::BodyKind::rigid)
     throw table.error("to", "'" + stator +
                                 "' is a rigid body, whose angle is not a coordinate; add a rotor and connect it to the "
@@ -69,11 +69,11 @@ void refuse_turning_point(const SceneTable &table, const Names &names, const Pla
     if (body && body->kind == coupling::BodyKind::point)
       throw table.error(key, "'" + place->marker +
                                  "' is a point, which has no rotation; make it a body of "
-                                 "type \"planar\" or \"rigid\", or take a displacement");
+                                 "type \"planar\" or \"rigid\", or use a displacement");
   }
   for (const char *key : {"at_from", "at_to"})
     if (table.has(key))
-      throw table.error(key, "is of no meaning: an angle is that of the whole body; leave it out");
+      throw table.error(key, "has no effect: an angle applies to the whole body; remove it");
 }
 
 namespace
@@ -104,13 +104,13 @@ RelativeMotion read_relative_motion(const SceneTable &table, const Names &names)
   const PlaceRequest from  = read_end(table, names, "from", "at_from", angle),
                      to    = read_end(table, names, "to", "at_to", angle);
   if (from.marker == to.marker)
-    throw table.error("to", "is '" + to.marker + "' like `from`; an element acts between two places");
+    throw table.error("to", "is '" + to.marker + "', the same as `from`; an element acts between two points");
 
   const bool along = table.has("direction"), about = table.has("about");
   if (along && about)
     throw table.error("has both 'direction' and 'about'; give 'direction' for a displacement or 'about' for an angle");
   if (along && angle)
-    throw table.error("direction", "is of no meaning: `from` or `to` names an angle; leave it out, or name the body");
+    throw table.error("direction", "has no effect: `from` or `to` names an angle; remove it, or name the body");
   if (along)
     return displacement(from, to, table.direction("direction"));
   if (about || angle)
@@ -170,15 +170,15 @@ RelativeMotion read_load_motion(const SceneTable &table, const Names &names)
   if (!table.has("carried_by"))
     return read_relative_motion(table, names);
   if (table.has("to") || !table.has("direction"))
-    throw table.error("carried_by", "needs a direction, and no 'to': it is for a load on `from` that turns with it");
+    throw table.error("carried_by", "needs a direction and no 'to': it is for a load on `from` that rotates with it");
   MeasureRequest along;
   along.first  = {"ground", {}};
   along.second = names.place(table, "from", "at_from");
   along.a      = table.direction("direction");
   along.unit   = "m";
   if (const std::string carrier = names.marker(table, "carried_by"); carrier != along.second.marker)
-    throw table.error("carried_by",
-                      "is '" + carrier + "', but the load acts on '" + along.second.marker + "', with which it turns");
+    throw table.error("carried_by", "is '" + carrier + "', but the load acts on '" + along.second.marker +
+                                        "' and can rotate only with it");
   return {{}, false, "", std::make_shared<MeasureRequest>(along), true};
 }
 
@@ -188,12 +188,12 @@ RelativeMotion read_shaft(const SceneTable &table, const Names &names)
   if (const MeasureRequest *measure = names.find_measure(name))
   {
     if (measure->unit != "rad")
-      throw table.error("on", "the measure '" + name +
-                                  "' is a length; a drive turns a rotor, a planar body or a "
-                                  "measure that is an angle");
+      throw table.error("on",
+                        "the measure '" + name +
+                            "' is a length; a drive acts on a rotor, a planar body or a measure that is an angle");
     if (table.has("to"))
-      throw table.error("to", "is of no meaning: the measure '" + name +
-                                  "' already says against what the motor turns; leave it out");
+      throw table.error("to",
+                        "has no effect: the measure '" + name + "' already defines both sides of the motor; remove it");
     return {{}, true, name};
   }
   const BodyRequest *angle = names.body_of_angle(name), *body = angle ? angle : names.find_body(name);
@@ -243,9 +243,9 @@ void refuse_measure(const SceneTable &table, const RelativeMotion &motion)
 {
   if (motion.is_measure())
     throw table.error(motion.own ? "from" : "on",
-                      "this element holds what sticks, along or about a constant direction: it cannot follow places "
-                      "on bodies that turn; name bodies with 'direction' or 'about', or a measure that is an angle of "
-                      "rotors and planar bodies, or take \"friction\" or \"lugre friction\", which creep");
+                      "sticking needs a constant direction, so this element cannot follow points on rotating bodies; "
+                      "name bodies with 'direction' or 'about', or a measure that is an angle of rotors and planar "
+                      "bodies, or use \"friction\" or \"lugre friction\", which creep");
 }
 
 } // namespace gestell::apps

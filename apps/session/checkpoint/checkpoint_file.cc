@@ -47,7 +47,7 @@ std::string read_checkpoint(const fs::path &file, const std::vector<KeyPart> &ke
 {
   std::ifstream in(file, std::ios::binary);
   if (!in)
-    refuse(file, "is not there: no run of this scene was stopped in that folder, or it came to its end");
+    refuse(file, "does not exist: no run of this scene was stopped in that folder, or the run was completed");
   std::string line;
   if (!std::getline(in, line) || line != first_line)
     refuse(file, "is not a checkpoint of this program");
@@ -55,7 +55,7 @@ std::string read_checkpoint(const fs::path &file, const std::vector<KeyPart> &ke
     if (!std::getline(in, line))
       refuse(file, "is damaged");
     else if (line != part.hash + ' ' + part.what)
-      refuse(file, "belongs to another run: " + part.what + " has changed since");
+      refuse(file, "is of another run: " + part.what + " has changed since");
   std::getline(in, line);
   const std::string state{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (line != hash_of(state) + " state")

@@ -29,7 +29,7 @@ coupling::RunCheckpoints run_checkpoints(const CheckpointRequest &request, const
     catch (const coupling::WriteFailure &failure)
     {
       if (warnings.empty())
-        warnings.push_back("the run cannot go on from its last states: " + std::string(failure.what()));
+        warnings.push_back("the run cannot continue from its last state: " + std::string(failure.what()));
     }
   };
   return checkpoints;

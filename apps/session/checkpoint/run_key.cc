@@ -96,7 +96,7 @@ std::vector<KeyPart> run_key(const SceneNode &scene, const coupling::Machine &ma
           part("a file that the scene names", [&](Sha256 &hash) { add_files(scene, hash); }),
           part("the frame or the mass, damping and stiffness of the machine",
                [&](Sha256 &hash) { add_matrices(machine.linear(), hash); }),
-          part("the start of the motion",
+          part("the initial state",
                [&](Sha256 &hash)
                {
                  add(start.q, hash);

@@ -120,20 +120,21 @@ void require_portable(const Scene &scene)
 {
   for (const BodyRequest &body : scene.bodies)
     if (body.part)
-      throw std::invalid_argument(body.place +
-                                  ": the body is taken from CAD, which an FMU does not read; give its "
-                                  "mass, inertia and position as numbers (" +
-                                  body.part->found + ")");
+      throw std::invalid_argument(
+          body.place +
+          ": the body is defined by CAD, which an FMU cannot read; give its mass, inertia and position as numbers (" +
+          body.part->found + ")");
   if (scene.reduction.superposition)
     throw std::invalid_argument(scene.reduction.options.place +
-                                ": in an FMU the machine does not move in its modes; leave out the superposition");
+                                ": modal superposition is not possible in an FMU; use another reduction.method");
   if (scene.start.periodic)
     throw std::invalid_argument(
         scene.start.place +
-        ": an FMU does not search for periodic motions; give the start by rule = \"given\", \"static\" or \"steady\"");
+        ": an FMU does not search for periodic solutions; use rule = \"given\", \"static\" or \"steady\"");
   if (frame_path(scene) == FramePath::sparse)
-    throw std::invalid_argument(scene.frame.place + ": the frame is not reduced; give [reduction] a method that makes "
-                                                    "a reduced frame, such as \"craig-bampton\"");
+    throw std::invalid_argument(
+        scene.frame.place +
+        ": the frame is not reduced; use a reduction.method that gives a reduced frame, such as \"craig-bampton\"");
 }
 
 /// Replaces the frame by a file that is available.
@@ -159,7 +160,7 @@ void take_frame(SceneNode &root, Session &session, FmuResources &resources, std:
   reduced.entries.emplace_back("reduced", text_node("frame.h5"));
   root.entries.emplace_back("frame", reduced);
   if (!resources.frozen.empty())
-    notes.push_back("the frame is reduced once for all: " + std::to_string(resources.frozen.size()) +
+    notes.push_back("the frame is reduced at the export: " + std::to_string(resources.frozen.size()) +
                     " parameters that it depends on cannot be set in the FMU");
 }
 

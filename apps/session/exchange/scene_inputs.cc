@@ -94,7 +94,7 @@ SceneNode parsed_keys(const std::string &text, const Place &place, const std::st
 {
   const auto node = parse_toml_value(text, place, folder);
   if (!node)
-    throw std::invalid_argument(place.text() + ": names with such letters cannot be inputs");
+    throw std::invalid_argument(place.text() + ": names with these characters cannot be inputs");
   return *node;
 }
 
@@ -140,14 +140,14 @@ void add_input(const std::string &requested, const Scene &scene, SceneNode &root
       set_entry(root, "element", parsed_keys("{}", place, root.folder));
     SceneNode &elements = *root.find("element");
     if (elements.find(element_of_input(name)))
-      place.fail("there is an input '" + name + "' already; give each a name of its own, such as F2=" + where);
+      place.fail("there is an input '" + name + "' already; use different names, such as F2=" + where);
     set_entry(
         elements, element_of_input(name),
         parsed_keys("{ type = \"force profile\", " + motion.keys + ", profile = " + input + " }", place, root.folder));
     return;
   }
   known.push_back("frame.INTERFACE.uz");
-  place.fail("there is no place '" + where + "' for an input" + suggestion(where, known));
+  place.fail("there is no marker '" + where + "' for an input" + suggestion(where, known));
 }
 
 } // namespace

@@ -59,15 +59,15 @@ public:
     }
     catch (const IdleParameter &)
     {
-      throw IdleParameter("--sensitivities " + key_.reported.key +
-                          ": no value of the scene depends on this parameter, so that all derivatives by it are zero; "
-                          "leave it out");
+      throw IdleParameter(
+          "--sensitivities " + key_.reported.key +
+          ": no value of the scene depends on this parameter, so all its derivatives are zero; remove it");
     }
     catch (const std::invalid_argument &refused)
     {
       std::ostringstream text;
-      text << "the scene is refused at a value " << 1e-4 * std::abs(by)
-           << " % away, so that this entry has no derivative: " << refused.what();
+      text << "the scene is invalid at a value " << 1e-4 * std::abs(by)
+           << " % away, so this key has no derivative: " << refused.what();
       refuse(key_, text.str());
     }
   }
@@ -110,13 +110,13 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
                                                                            above, steps * key.step)
                                               : coupling::frame_derivative(frame, below, above, steps * key.step);
     key.reported.frame = "differences of two reductions at " + percent(anew ? of_meshes : of_matrices) +
-                         (anew ? " more and less, each meshed again" : " more and less");
+                         (anew ? " above and below, each meshed again" : " above and below");
     constexpr double rough = 0.05; // of a difference of frames: larger errors are reported
     if (derivative.curvature > rough)
       warning = "derivatives by " + key.reported.key + " come from " + key.reported.frame +
-                "; these differ from the frame between them by " + percent(derivative.curvature, 2) +
-                " of their difference, by which derivatives may be wrong" +
-                (anew ? ": a finer mesh scatters less" : "");
+                "; their mean deviates from the frame between them by " + percent(derivative.curvature, 2) +
+                " of their difference, which is the possible error of the derivatives" +
+                (anew ? ": a finer mesh reduces the scatter" : "");
     return derivative;
   }
   catch (const std::runtime_error &failed)
@@ -143,8 +143,8 @@ void require_same_structure(const coupling::Machine &machine, const coupling::Ma
   for (int i = 0; same && i < machine.size() && key.reported.frame.empty(); ++i)
     same = machine.coordinate_name(i) == twin.coordinate_name(i);
   if (!same)
-    refuse(key, "another value makes another machine, with other coordinates, elements or joints; a run has no "
-                "derivative by it. Compare two runs with --set " +
+    refuse(key, "another value changes the coordinates, elements or joints of the machine, so there is no derivative; "
+                "compare two runs with --set " +
                     key.reported.key + "=...");
 }
 
@@ -159,7 +159,7 @@ PreparedScene twin_of(const VariedScene &varied, const coupling::ReducedFrame *f
   }
   catch (const std::invalid_argument &refused)
   {
-    refuse(varied.key(), "the machine is refused at a value a millionth away, so that this entry has no derivative: " +
+    refuse(varied.key(), "the machine is invalid at a value a millionth away, so this key has no derivative: " +
                              std::string(refused.what()));
   }
 }
@@ -204,11 +204,11 @@ PerturbedScenes perturbed_scenes(const Variant &file, const Scene &scene, Prepar
                                  const coupling::Progress &progress)
 {
   if (prepared.companion)
-    throw std::invalid_argument("--sensitivities: a machine in modes (reduction.method = \"modal\") or on an unreduced "
-                                "frame has no derivatives here; take reduction.method = \"craig-bampton\"");
+    throw std::invalid_argument("--sensitivities: not available with reduction.method = \"modal\" or an unreduced "
+                                "frame; use reduction.method = \"craig-bampton\"");
   if (scene.start.periodic)
-    throw std::invalid_argument("--sensitivities: start.rule = \"periodic\" has no derivative here; take the rule "
-                                "\"steady\" or \"equilibrium\", or give the start");
+    throw std::invalid_argument(
+        "--sensitivities: not available with start.rule = \"periodic\"; use another rule, or give the initial state");
   coupling::require_variational(prepared.machine);
   std::optional<coupling::ReducedFrame> frame;
   if (on_reduced_frame(scene))
@@ -235,7 +235,7 @@ PerturbedScenes perturbed_scenes(const Variant &file, const Scene &scene, Prepar
       left_out->push_back(none.what());
     }
   if (!idle.empty())
-    left_out->push_back("--sensitivities all leaves out parameters on which no value of the scene depends: " + idle);
+    left_out->push_back("--sensitivities all omits parameters on which no value of the scene depends: " + idle);
   if (kept.empty())
     throw std::invalid_argument("--sensitivities all: no parameter of this scene has a derivative: " +
                                 left_out->front());

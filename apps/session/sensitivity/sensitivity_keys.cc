@@ -56,15 +56,15 @@ void refuse_settings(const std::string &key, const std::string &table)
 {
   static const std::map<std::string, std::string> settings = {{"name", "the name of the scene"},
                                                               {"description", "the description of the scene"},
-                                                              {"modes", "which modes are listed, and where"},
-                                                              {"output", "what is written"},
-                                                              {"reduction", "how the frame is reduced"}};
+                                                              {"modes", "the listed modes and their configuration"},
+                                                              {"output", "the requested results"},
+                                                              {"reduction", "the reduction of the frame"}};
   if (const auto found = settings.find(table); found != settings.end())
     refuse(key, "this key sets " + found->second +
-                    "; a run has no derivative by it. Name a parameter "
-                    "(parameters.NAME) or a number of a body, an element, a load or a joint");
+                    "; a run has no derivative by it; name a parameter (parameters.NAME) or a number of a body, an "
+                    "element, a load or a joint");
   if (table == "run" && key != "run.end")
-    refuse(key, "this key sets how the run is integrated; a run has no derivative by it. Name a parameter "
+    refuse(key, "this key sets the integration of the run; a run has no derivative by it; name a parameter "
                 "(parameters.NAME) or a number of a body, an element, a load or a joint");
 }
 
@@ -78,9 +78,9 @@ const SceneNode &node_of(const SceneNode &root, const std::string &key)
     const SceneNode  *next       = node->type == SceneNode::Type::table ? node->find(name) : nullptr;
     const SceneNode  *parameters = root.find("parameters");
     if (!next && path.empty() && parameters && parameters->find(name))
-      refuse(key, "the scene has no entry \"" + name + "\", but a parameter of that name; write parameters." + name);
+      refuse(key, "the scene has no key \"" + name + "\", but a parameter of that name; write parameters." + name);
     if (!next)
-      refuse(key, node->place.text() + ": " + (path.empty() ? "the scene" : path) + " has no entry \"" + name + "\"" +
+      refuse(key, node->place.text() + ": " + (path.empty() ? "the scene" : path) + " has no key \"" + name + "\"" +
                       suggestion(name, names_in(node)));
     path += (path.empty() ? "" : ".") + name;
     node = next;
@@ -92,7 +92,7 @@ Quantity value_of(const std::string &key, const SceneNode &node, const Parameter
 {
   const bool number = node.type == SceneNode::Type::integer || node.type == SceneNode::Type::real;
   if (!number && node.type != SceneNode::Type::text)
-    refuse(key, node.place.text() + " is " + type_name(node.type) + "; name an entry that is one number");
+    refuse(key, node.place.text() + " is " + type_name(node.type) + "; name a key with one number");
   try
   {
     return parameters.evaluate(node);
@@ -100,7 +100,7 @@ Quantity value_of(const std::string &key, const SceneNode &node, const Parameter
   catch (const std::invalid_argument &)
   {
     refuse(key, node.place.text() + ": " + described(node) +
-                    " is not a number, and nothing changes by little with it; name an entry that is one, as \"40 mm\"");
+                    " is not a number, so it has no small change; name a key with a number, such as \"40 mm\"");
   }
 }
 
@@ -110,8 +110,8 @@ VariedKey varied(const std::string &key, const SceneNode &root, const Parameters
   const SceneNode &node     = node_of(root, key);
   const Quantity   quantity = value_of(key, node, parameters);
   if (quantity.value == 0.)
-    refuse(key, node.place.text() +
-                    " is 0, so that its size tells no step for a quotient; give it a small value, or leave it out");
+    refuse(key,
+           node.place.text() + " is 0, which gives no step for a difference quotient; set a small value, or remove it");
   VariedKey found;
   found.reported.key   = key;
   found.reported.value = quantity.value;
@@ -155,10 +155,10 @@ std::vector<std::string> all_keys(const SceneNode &root, const Parameters &param
         zero += (zero.empty() ? "" : ", ") + name;
     }
   if (keys.empty())
-    refuse("all", "the scene has no [parameters] but zeros; name entries such as element.NAME.stiffness");
+    refuse("all", "all [parameters] of the scene are zero; name keys such as element.NAME.stiffness");
   if (left_out && !zero.empty())
     left_out->push_back(
-        "--sensitivities all leaves out parameters that are 0, whose size tells no step for a quotient: " + zero);
+        "--sensitivities all omits parameters that are 0, which give no step for a difference quotient: " + zero);
   return keys;
 }
 

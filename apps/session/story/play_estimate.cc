@@ -222,7 +222,7 @@ std::string limits_of(const PlayEstimate &cycle, const PlayEstimate *next)
     limits = "mostly open, far from harmonic";
   constexpr double decays = 0.3; // share of the amplitude lost until the next cycle
   if (next && next->amplitude < (1. - decays) * cycle.amplitude)
-    limits += (limits.empty() ? "" : "; ") + std::string("the amplitude falls fast");
+    limits += (limits.empty() ? "" : "; ") + std::string("the amplitude decays fast");
   return limits;
 }
 

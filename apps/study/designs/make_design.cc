@@ -27,7 +27,7 @@ void require_few(const char *what, int requested)
 {
   if (requested > most_runs)
     throw std::invalid_argument("study: " + std::string(what) + " is " + std::to_string(requested) +
-                                "; a million runs are the most");
+                                "; the limit is a million runs");
 }
 
 Design listed_design(const DesignRequest &request, const std::vector<StudyVariable> &variables)

@@ -73,7 +73,7 @@ Design full_factorial(const std::vector<std::vector<double>> &levels)
     throw std::invalid_argument("study: a full factorial design needs variables, each with levels");
   if (runs > most_runs)
     throw std::invalid_argument("study: the full factorial design has " + count_of(runs) +
-                                " runs, more than a million; take fewer levels, or a Latin hypercube");
+                                " runs, more than a million; use fewer levels, or a Latin hypercube");
 
   Design design;
   design.type = "full factorial";

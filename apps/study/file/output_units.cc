@@ -21,7 +21,7 @@ void check_value(const OutputValue &claim, const StudyOutput &output)
     return;
   throw std::invalid_argument(
       claim.place + "is in " + describe(claim.value.dimension) + ", but output " + output.name + ' ' +
-      unit_text(output) + "; give it in such a unit" +
+      unit_text(output) + "; use a matching unit" +
       (output.unit.empty() ? ", as a plain number" : ", or as a plain number in " + output.unit));
 }
 
@@ -36,7 +36,7 @@ void check_sum(const std::vector<SummedGoal> &goals, const std::vector<StudyOutp
         throw std::invalid_argument(goal.place + "output " + one.name + ' ' + unit_text(one) +
                                     " and is summed with output " + two.name + ", which " +
                                     (other.is_scaled ? "has a scale" : unit_text(two)) +
-                                    "; give each goal a scale, such as what the first design has of it");
+                                    "; give each goal a scale, such as its value in the first design");
     }
 }
 

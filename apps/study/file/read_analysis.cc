@@ -38,7 +38,7 @@ void refuse_stepped_variables(const StudyFile &study, const SceneTable &table, c
     if (variable.variable.stepped)
       throw table.error("variable " + variable.variable.name + " takes " +
                         (variable.files.empty() ? "words" : "files") +
-                        ", between which there is nothing; leave it out of the study, or leave out " + asks);
+                        ", with no values between them; remove it from the study, or remove " + asks);
 }
 
 SurfaceRequest read_surface(const StudyFile &study, const SceneTable &table)
@@ -175,7 +175,7 @@ void refuse_few_runs(const StudyFile &study, const SceneNode &node, const Surfac
     node.place.fail("surface: a surface of order \"" + order_word(options.order) + "\" in " +
                     std::to_string(study.variables.size()) + " variables has " + std::to_string(needed) +
                     " coefficients, but the design has " + std::to_string(n_runs) +
-                    " runs; take a larger design, or order = \"linear\"");
+                    " runs; use a larger design, or order = \"linear\"");
 }
 
 } // namespace

@@ -32,7 +32,7 @@ std::vector<int> columns_of(const StudyFile &study, const SceneTable &table)
     if (found == names.end())
       throw table.error("columns", "there is no variable '" + name + "'" + suggestion(name, names));
     if (std::find(columns.begin(), columns.end(), int(found - names.begin())) != columns.end())
-      throw table.error("columns", "'" + name + "' stands there twice");
+      throw table.error("columns", "'" + name + "' is a duplicate");
     columns.push_back(int(found - names.begin()));
   }
   return columns;
@@ -91,7 +91,7 @@ Eigen::MatrixXd read_list(const StudyFile &study, const SceneTable &table, const
                                        "value in each row, or give it levels for which the rows are repeated");
     if (const double runs = double(rows.size()) * double(variable.levels.size()); runs > most_runs)
       throw table.error("rows", "makes more than a million runs, crossed with the levels of " + variable.name +
-                                    " and those before it; take fewer rows or levels");
+                                    " and those before it; use fewer rows or levels");
     rows = crossed(rows, i, variable.levels);
   }
   Eigen::MatrixXd list(rows.size(), study.variables.size());
@@ -106,7 +106,7 @@ void refuse_steps(const StudyFile &study, const SceneTable &table, const std::st
     if (request.variable.stepped && type != "list" && type != "full factorial")
       throw table.error("type", "\"" + type + "\" takes values between the levels of a variable, but those of " +
                                     request.variable.name + " are " + (request.files.empty() ? "words" : "files") +
-                                    "; take \"full factorial\" or \"list\"");
+                                    "; use \"full factorial\" or \"list\"");
 }
 
 /// Keys that only some types take.
@@ -123,7 +123,7 @@ void refuse_others(const SceneTable &table, const std::string &type)
       {"rows", {"list"}}};
   for (const auto &[key, types] : owners)
     if (table.has(key) && std::find(types.begin(), types.end(), type) == types.end())
-      throw table.error(key, "is a key of " + listed(types) + ", but the type is '" + type + "'; leave it out");
+      throw table.error(key, "is a key of " + listed(types) + ", but the type is '" + type + "'; remove it");
 }
 
 /// Coded values and back leave an error in the last digits of the larger end of a range: 0.1 of -1 to 1 has 14
@@ -177,7 +177,7 @@ StudyPoints read_design(const StudyFile &study)
     const auto variables = study.values();
     Design     design    = make_design(request, variables);
     if (design.n_runs() > most_runs)
-      throw table.error("asks for " + std::to_string(design.n_runs()) + " runs; a million are the most");
+      throw table.error("asks for " + std::to_string(design.n_runs()) + " runs; the limit is a million");
     const Eigen::MatrixXd levels = request.list.size() > 0 ? request.list : rounded_levels(design.points, variables);
     return {design, levels};
   }

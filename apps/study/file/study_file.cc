@@ -40,9 +40,9 @@ void read_words(const SceneNode &levels, VariableRequest &request)
   {
     const std::string word = level.type == Type::boolean ? (level.boolean ? "true" : "false") : level.text;
     if (level.type != Type::boolean && level.type != Type::text)
-      level.place.fail("variables." + request.variable.name + ".levels: mixes words and numbers; give one of both");
+      level.place.fail("variables." + request.variable.name + ".levels: mixes words and numbers; use either");
     if (std::find(request.variable.words.begin(), request.variable.words.end(), word) != request.variable.words.end())
-      level.place.fail("variables." + request.variable.name + ".levels: '" + word + "' stands there twice");
+      level.place.fail("variables." + request.variable.name + ".levels: '" + word + "' is a duplicate");
     request.variable.words.push_back(word);
     request.variable.levels.push_back(double(request.variable.words.size()) - 1.);
   }
@@ -80,7 +80,7 @@ void read_levels(const SceneNode &node, const SceneTable &table, VariableRequest
 {
   const SceneNode &levels = *node.find("levels");
   if (table.has("from") || table.has("to"))
-    throw table.error("levels", "says the same as 'from' and 'to'; give one of them");
+    throw table.error("levels", "means the same as 'from' and 'to'; give only one of them");
   if (levels.type != Type::array || levels.elements.size() < 2)
     throw table.error("levels", "needs an array of two values or more, such as [\"800 kN/mm\", \"900 kN/mm\"], got " +
                                     described(levels));
@@ -108,7 +108,7 @@ void read_choices(const SceneNode &node, const SceneTable &table, VariableReques
 {
   const SceneNode &choices = *node.find("choices");
   if (table.has("levels") || table.has("from") || table.has("to"))
-    throw table.error("choices", "stand in place of 'levels' or 'from' and 'to'; give one of them");
+    throw table.error("choices", "replace 'levels' or 'from' and 'to'; give only one of them");
   if (choices.type != Type::table || choices.entries.size() < 2)
     throw table.error("choices", "needs a table of two named values or more, got " + described(choices));
   for (const auto &[word, value] : choices.entries)
@@ -132,7 +132,7 @@ void read_scatter(const SceneNode &node, const SceneTable &table, StudyVariable 
     throw table.error("scatter", "needs 'width', the half width of a uniform scatter or the standard deviation of a "
                                  "normal one");
   if (variable.scatter == Scatter::none)
-    throw table.error("width", "goes with scatter = \"uniform\" or \"normal\"; give one of them, or leave it out");
+    throw table.error("width", "needs scatter = \"uniform\" or \"normal\"; add it, or remove this key");
   variable.width = in_unit(*node.find("width"), variable, "width");
   if (!(variable.width > 0.))
     throw table.error("width", "needs a number above 0, got " + short_text(variable.width));
@@ -195,7 +195,7 @@ void read_measures(const SceneTable &table, const SceneNode &measures, StudyFile
   {
     if (entry.type != Type::text)
       entry.place.fail("scene.measure." + parameter +
-                       ": needs an entry of a run's answer, such as \"events.limiter.first\", got " + described(entry));
+                       ": needs a result of a run, such as \"events.limiter.first\", got " + described(entry));
     study.measures.push_back({parameter, entry.text, entry.place});
   }
 }
@@ -213,7 +213,7 @@ void read_scene_table(const SceneTable &root, const SceneNode &node, StudyFile &
     return;
   const SceneNode &set = *node.find("scene")->find("set");
   if (set.type != Type::table)
-    throw table.error("set", "needs a table of entries, { \"run.step\" = \"5 us\" }, got " + described(set));
+    throw table.error("set", "needs a table of scene keys, { \"run.step\" = \"5 us\" }, got " + described(set));
   study.settings = set.entries;
 }
 
@@ -232,12 +232,12 @@ void read_variables(const SceneTable &root, const SceneNode &node, StudyFile &st
     for (const std::string &key : request.keys)
       if (const auto [taker, is_new] = takers.emplace(key, request.variable.name); !is_new)
         throw std::invalid_argument(request.place + ": '" + key + "' takes the value of variable " + taker->second +
-                                    " already; leave it out in one of them");
+                                    " already; remove it in one of them");
   for (const auto &[inner, of_inner] : takers)
     for (const auto &[whole, of_whole] : takers)
       if (inner.compare(0, whole.size() + 1, whole + ".") == 0)
         throw root.error("'" + inner + "' of variable " + of_inner + " is a part of '" + whole + "' of variable " +
-                         of_whole + ", which takes its place; let one of them change it");
+                         of_whole + ", which replaces it; let only one variable change it");
 }
 
 void read_outputs(const SceneTable &root, const SceneNode &node, StudyFile &study, std::vector<std::string> &names)

@@ -40,7 +40,7 @@ OutputPoint functions_at(Talk &talk, unsigned n, const double *x)
   OutputPoint point =
       talk.functions(Eigen::Map<const Eigen::VectorXd>(x, n), by_gradients ? Derivatives::wanted : Derivatives::none);
   if (by_gradients && point.derivatives.size() == 0)
-    throw std::invalid_argument("study: the outputs have no derivatives for a search by gradients; take method "
+    throw std::invalid_argument("study: the outputs have no derivatives for a search by gradients; use method "
                                 "\"derivative-free\", or search on the surface");
   return point;
 }

@@ -27,14 +27,14 @@ void check_goal(const Goal &goal, int n_outputs)
   check_output(goal.output, n_outputs);
   if (!(goal.weight > 0. && goal.scale > 0.) || !std::isfinite(goal.weight) || !std::isfinite(goal.scale))
     refuse_task("weight " + short_text(goal.weight) + " and scale " + short_text(goal.scale) +
-                " of a goal must be positive; to reward large values take maximise");
+                " of a goal must be positive; to reward large values use maximise");
 }
 
 void check_limit(const Limit &limit, int n_outputs)
 {
   check_output(limit.output, n_outputs);
   if (!(limit.least <= limit.most))
-    refuse_task("the limit from " + short_text(limit.least) + " to " + short_text(limit.most) + " holds nothing");
+    refuse_task("the limit from " + short_text(limit.least) + " to " + short_text(limit.most) + " is empty");
 }
 
 double signed_weight(const Goal &goal)
@@ -88,7 +88,7 @@ void check_task(const OptimumTask &task, int n_outputs)
   for (const Limit &limit : task.limits)
     check_limit(limit, n_outputs);
   if (task.low.size() == 0 || task.low.size() != task.high.size() || !(task.low.array() < task.high.array()).all())
-    refuse_task("its box of variables is empty");
+    refuse_task("the range of its variables is empty");
 }
 
 } // namespace gestell::apps

@@ -114,7 +114,7 @@ void mark_window(const StudyTable &table, const RowChoice &choice, Chart &chart)
   panel.curves.push_back(
       tile_name("its window, " + short_text(from, 3) + " to " + short_text(to, 3) + ' ' + x.unit, colour));
   panel.tiles.push_back({from, to, chart.y.begin, chart.y.begin + bar_height * (chart.y.end - chart.y.begin), colour,
-                         family_of(table, choice.task, choice.best) + ": all limits are kept"});
+                         family_of(table, choice.task, choice.best) + ": all limits satisfied"});
 }
 
 std::string chart_of(const StudyTable &table, const RowChoice &choice, int output)
@@ -122,7 +122,7 @@ std::string chart_of(const StudyTable &table, const RowChoice &choice, int outpu
   const ShownAxis y = axis_of(table, output);
   Chart           chart;
   chart.title            = y.head() + " over " + axis_of(table, choice.task.over).head();
-  chart.note             = choice.best < 0 ? "no run keeps all limits" : "filled: all limits are kept";
+  chart.note             = choice.best < 0 ? "no run satisfies all limits" : "filled: all limits satisfied";
   chart.x.label          = axis_of(table, choice.task.over).head();
   const auto [low, high] = ends_of(table, output, y);
   chart.y                = fitted(ChartAxis{y.head()}, low, high, 0.05);
@@ -166,7 +166,7 @@ std::string families_table(const StudyTable &table, const RowChoice &choice)
   for (const int output : outputs_of(choice.task))
     titles.push_back("#" + escape_xml(axis_of(table, output).head()));
   if (over)
-    titles.push_back("#limits are kept, " + escape_xml(axis_of(table, choice.task.over).head()));
+    titles.push_back("#limits satisfied, " + escape_xml(axis_of(table, choice.task.over).head()));
   HtmlTable families(titles);
   for (const FamilyChoice &family : choice.families)
   {
@@ -189,8 +189,8 @@ std::string choice_text(const StudyFindings &findings)
   const RowChoice  &choice = *findings.choice;
   const StudyTable &table  = findings.table;
   if (choice.best < 0)
-    return "no run keeps all limits";
-  std::string text = "the best of " + count_text(choice.kept.size(), "run") + " that keep all limits is run " +
+    return "no run satisfies all limits";
+  std::string text = "the best of " + count_text(choice.kept.size(), "run") + " that satisfy all limits is run " +
                      std::to_string(choice.best + 1) + ": ";
   for (std::size_t i = 0; i < table.variables.size(); ++i)
     text += (i ? ", " : "") + table.variables[i].name + " = " +
@@ -199,11 +199,11 @@ std::string choice_text(const StudyFindings &findings)
     text += "; " + table.outputs[std::size_t(output)].name + " " +
             axis_of(table, output).text_with_unit(table.values(choice.best, output));
   if (!choice.ties.empty())
-    text += "; " + ties_text(choice.ties) + " as good";
+    text += "; " + ties_text(choice.ties) + " equally good";
   if (choice.window.size() < 2)
     return text;
   const ShownAxis x = axis_of(table, choice.task.over);
-  return text + "; runs of its family keep the limits from " +
+  return text + "; runs of its family satisfy the limits from " +
          x.text_with_unit(table.values(choice.window.front(), choice.task.over)) + " to " +
          x.text_with_unit(table.values(choice.window.back(), choice.task.over)) + " of " + x.name;
 }

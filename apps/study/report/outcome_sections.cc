@@ -55,8 +55,8 @@ std::string wall_text(const StudyOptimum &optimum, Eigen::Index j)
   const double     xi        = optimum.found.coded(j);
   constexpr double at_a_wall = 1e-6; // coded: searches end there but for their tolerance
   if (xi - optimum.task.low(j) < at_a_wall)
-    return "at its lower end";
-  return optimum.task.high(j) - xi < at_a_wall ? "at its upper end" : "";
+    return "at the lower end of its range";
+  return optimum.task.high(j) - xi < at_a_wall ? "at the upper end of its range" : "";
 }
 
 std::string variables_table(const StudyFindings &findings)
@@ -78,8 +78,8 @@ std::string outputs_table(const StudyFindings &findings)
 {
   const StudyOptimum &optimum = *findings.optimum;
   const bool          surface = optimum.source == "surface";
-  HtmlTable           table({"output", "#in the middle", surface ? "#surface" : "#optimum", "#run", "#surface off by",
-                             "#magnitude from middle"});
+  HtmlTable table({"output", "#at the midpoint", surface ? "#surface" : "#optimum", "#run", "#error of the surface",
+                   "#magnitude relative to midpoint"});
   for (std::size_t i = 0; i < findings.table.outputs.size(); ++i)
   {
     const auto   at    = static_cast<Eigen::Index>(i);
@@ -96,7 +96,7 @@ std::string outputs_table(const StudyFindings &findings)
 
 std::string searches_table(const StudyFindings &findings)
 {
-  std::vector<std::string> titles = {"#search", "#objective", "keeps limits", "#evaluations", "ends"};
+  std::vector<std::string> titles = {"#search", "#objective", "limits satisfied", "#evaluations", "ends"};
   for (const StudyVariable &variable : findings.table.variables)
     titles.push_back("#" + escape_xml(variable.name) + ", coded");
   HtmlTable table(titles);
@@ -126,7 +126,7 @@ std::string optimum_words(const StudyFindings &findings)
                      (optimum.link.empty() ? "" : " <a href=\"" + escape_xml(optimum.link) + "\">The run there</a>.") +
                      "</p>\n";
   if (!optimum.found.feasible)
-    html += note_box({"No point was found that keeps all limits; this one breaks them least."});
+    html += note_box({"No point satisfies all limits; this one violates them least."});
   if (optimum.source == "surface" && !optimum.verified)
     html += note_box({"No run has verified this point."});
   return html;
@@ -164,11 +164,11 @@ std::string robust_words(const RobustResult &result)
 {
   std::string text = count_text(result.draws, "draw") + " by seed " + std::to_string(result.seed);
   if (result.failed > 0)
-    text += ", " + std::to_string(result.failed) + " failed and are left out";
-  text += "; limits are kept in " + percent(result.kept) + " ± " + percent(result.kept_error, 2) + ".";
+    text += ", " + std::to_string(result.failed) + " failed and are omitted";
+  text += "; limits are satisfied in " + percent(result.kept) + " ± " + percent(result.kept_error, 2) + ".";
   if (result.source == "surface" && result.outside > 0.)
     text += " In " + percent(result.outside) +
-            " of them a variable leaves the range of the study: there the surface extrapolates.";
+            " of them a variable is outside the range of the study, where the surface extrapolates.";
   return "<p>" + text + "</p>\n";
 }
 
@@ -196,11 +196,12 @@ std::string front_section(const StudyFindings &findings, Pictures &pictures)
     }
   if (html.empty())
     return "";
-  return section(
-      "front", "Pareto front",
-      html + "<p class=\"soft\">No run is as good as one on the front in all goals and better in one." +
-          (findings.front.empty() ? "" : " The front on the surfaces stands in front.csv; it errs as they do.") +
-          "</p>\n");
+  return section("front", "Pareto front",
+                 html + "<p class=\"soft\">No run is at least as good in all goals and better in one." +
+                     (findings.front.empty()
+                          ? ""
+                          : " The front on the surfaces is in front.csv; it has the errors of the surfaces.") +
+                     "</p>\n");
 }
 
 std::string robust_section(const StudyFindings &findings)

@@ -89,7 +89,7 @@ void SceneVariants::check_measure(const RunParameter &measure) const
     for (const std::string &key : request.keys)
       if (key == "parameters." + measure.parameter)
         measure.place.fail("scene.measure." + measure.parameter + ": is varied by variable " + request.variable.name +
-                           "; leave one of both out");
+                           "; remove one of the two");
 }
 
 void SceneVariants::check_key(const VariableRequest &request, const std::string &key) const

@@ -59,7 +59,7 @@ LeastSquares::LeastSquares(const Eigen::MatrixXd &X, const std::vector<std::stri
   const Eigen::Index n = X.rows(), p = X.cols();
   if (n < p)
     throw std::invalid_argument("study: " + count_text(n, "run") + " for " + count_text(p, "coefficient") +
-                                " of the surface; make more runs, or take a surface of lower order");
+                                " of the surface; make more runs, or use a surface of lower order");
   // Below it a pivot of a column of length 1 is rounding: designs are coded, their columns of the size of one.
   constexpr double smallest_pivot = 1e-9;
   qr_.setThreshold(smallest_pivot);
@@ -67,7 +67,7 @@ LeastSquares::LeastSquares(const Eigen::MatrixXd &X, const std::vector<std::stri
   if (qr_.rank() < p)
     throw std::invalid_argument("study: the design is singular: on all its " + std::to_string(n) + " runs " +
                                 confounded(qr_, scale_, names) +
-                                "; add runs that differ in this (centre points, another alpha, more levels), or take a "
+                                "; add runs that differ in this (centre points, another alpha, more levels), or use a "
                                 "surface of lower order");
 
   const Eigen::MatrixXd Q = qr_.householderQ() * Eigen::MatrixXd::Identity(n, p);

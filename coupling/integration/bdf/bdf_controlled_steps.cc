@@ -373,15 +373,14 @@ void BdfControlled::fail(double h, const Trial &trial) const
 {
   std::ostringstream message;
   message << "BDF with controlled step: at t = " << t_end_ << " s the step of " << h
-          << " s is to be divided below the smallest one, " << options_.smallest_step << " s; ";
+          << " s would have to be smaller than the smallest step, " << options_.smallest_step << " s; ";
   if (trial.solved)
-    message
-        << "the local error of order " << order_ << " is still " << trial.error << " times the tolerance "
-        << options_.tolerance << ", and largest in " << scale_.worst(motion(difference_))
-        << ".  Does a force jump there without an event?  Locate events, smooth the force, allow a larger tolerance "
-           "or a smaller step";
+    message << "the local error of order " << order_ << " is still " << trial.error << " times the tolerance "
+            << options_.tolerance << ", and largest in " << scale_.worst(motion(difference_))
+            << ". Does a force jump there without an event? Locate events, smooth the force, or allow a larger "
+               "tolerance or a smaller step";
   else if (!reason_.empty())
-    message << reason_ << ".  Look at the force there, or allow a smaller step";
+    message << reason_ << ". Check the force there, or allow a smaller step";
   else
     message << "the motion is no longer finite";
   throw trial.solved ? ConvergenceFailure(message.str()) : ConvergenceFailure(message.str(), reason_id_, reason_place_);

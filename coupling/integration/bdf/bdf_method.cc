@@ -121,8 +121,8 @@ public:
   std::string                  energy_advice(const MethodOptions &o) const override
   {
     return controlled(o) || o.order >= 4 ? ""
-                                         : "Where bodies spin or swing many times, order = 4 with 60 steps or more per "
-                                           "turn loses far less";
+                                         : "For many revolutions or oscillations, order = 4 with at least 60 steps per "
+                                           "period loses far less energy";
   }
   std::string               family() const override { return "BDF"; }
   std::vector<ChartSetting> chart_settings() const override;

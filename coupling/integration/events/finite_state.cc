@@ -18,7 +18,7 @@ std::string non_finite_state_message(const SecondOrderSystem &system, const Loca
 {
   const std::string  law = law_at_fault(system, state).words;
   std::ostringstream message;
-  message << "there is no finite number at t = " << state.t << " s for ";
+  message << "no finite value at t = " << state.t << " s for ";
   for (const auto &[values, what] :
        {std::pair(&state.u, "the motion of "), {&state.v, "the rate of "}, {&state.p, "the force on "}})
     for (Eigen::Index i = 0; i < values->size(); ++i)
@@ -26,10 +26,10 @@ std::string non_finite_state_message(const SecondOrderSystem &system, const Loca
       {
         const Eigen::SparseMatrix<double>::InnerIterator acts(system.forces().directions(), i);
         message << what << (acts ? system.linear().coordinate_name(int(acts.row())) : "a measure") << "; "
-                << (law.empty() ? "the motion grew beyond all numbers" : law);
+                << (law.empty() ? "the motion diverged" : law);
         return message.str();
       }
-  message << "the forces of joints; the motion grew beyond all numbers";
+  message << "the forces of joints; the motion diverged";
   return message.str();
 }
 

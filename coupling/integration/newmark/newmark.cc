@@ -29,19 +29,19 @@ const Newmark::Options &checked(const Newmark::Options &o)
 /// A joint is an infinitely stiff spring: its roots are those for omega h = infinity, which must be damped.
 void refuse_with_joints(const Newmark::Options &o)
 {
-  const std::string way = "; take bdf, or generalised-alpha with rho_inf below 1, or hht with alpha below 0";
+  const std::string way = "; use bdf, or generalised-alpha with rho_inf below 1, or hht with alpha below 0";
   if (o.beta == 0.)
-    throw std::invalid_argument("central differences: the position of ideal joints depends on no unknown of the step; "
-                                "take bdf");
+    throw std::invalid_argument("central differences: not possible with ideal joints, whose positions depend on no "
+                                "unknown of the step; use bdf");
   if (o.gamma <= 0.5)
-    throw std::invalid_argument("Newmark: without numerical damping the forces of ideal joints oscillate from step to "
-                                "step for ever" +
-                                way);
+    throw std::invalid_argument(
+        "Newmark: without numerical damping the forces of ideal joints oscillate from step to step without decay" +
+        way);
   if (o.alpha_m == 0. && o.alpha_f == 0. && 2. * o.beta <= o.gamma)
   {
     std::ostringstream message;
     message << "Newmark: beta is " << o.beta << ", and with ideal joints it must be above gamma/2 = " << 0.5 * o.gamma
-            << ": otherwise their forces grow, or oscillate from step to step for ever, at any step" << way;
+            << ": otherwise their forces grow or oscillate from step to step, at any step size" << way;
     throw std::invalid_argument(message.str());
   }
 }

@@ -30,9 +30,8 @@ OneStep::OneStep(const SecondOrderSystem &system, const std::string &name, doubl
       start_(system, name, newton.joints), middle_(std::max(max_halvings, 0) + 1)
 {
   if (const auto &massless = system.linear().virtual_coordinates(); !massless.empty())
-    throw std::invalid_argument(name +
-                                ": the mass matrix is singular: " + system.linear().coordinate_name(massless.front()) +
-                                " is a state without mass; use bdf, which needs none");
+    throw std::invalid_argument(name + ": the mass matrix is singular: " +
+                                system.linear().coordinate_name(massless.front()) + " has no mass; use the method bdf");
   for (Point *point : {&begin_, &end_, &cut_point_})
     resize(*point);
   q_inside_.setZero(system.linear().size());

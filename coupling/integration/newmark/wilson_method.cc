@@ -69,13 +69,13 @@ public:
   std::string name() const override { return "wilson"; }
   std::string meaning() const override
   {
-    return "Wilson's theta: acceleration linear over theta h, the balance at its end.";
+    return "Wilson's theta method: acceleration linear over theta h, equilibrium at its end.";
   }
   const std::vector<MethodParameter> &parameters() const override
   {
-    static const std::vector<MethodParameter> all = {
-        {"theta", "instant of the balance of forces, in steps; stable at 1.366 and above", 1.4, "1 or more",
-         [](double theta) { return theta >= 1.; }}};
+    static const std::vector<MethodParameter> all = {{"theta",
+                                                      "time of equilibrium, in steps; stable at 1.366 and above", 1.4,
+                                                      "1 or more", [](double theta) { return theta >= 1.; }}};
     return all;
   }
   std::string label(const MethodOptions &o) const override

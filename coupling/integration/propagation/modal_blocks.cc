@@ -35,7 +35,7 @@ MatrixXd motions_without_stiffness(const MatrixXd &C)
   constexpr double no_stiffness = 1e-13;
   constexpr double negative     = 1e-8; // likewise, below zero: more than rounding
   if (n > 0 && modes.eigenvalues()[0] < -negative)
-    refuse("the stiffness matrix of the base is not positive semidefinite; give what pushes away as an element");
+    refuse("the stiffness matrix of the base is not positive semidefinite; model negative stiffness as an element");
   while (n_r < n && modes.eigenvalues()[n_r] < no_stiffness * double(n))
     ++n_r;
   return d.asDiagonal() * modes.eigenvectors().leftCols(n_r);
@@ -65,9 +65,9 @@ RealModes real_modes(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C,
   const VectorXd             pivots = cholesky.matrixLLT().diagonal();
   for (Eigen::Index i = 0; i < M.rows(); ++i)
     if (!(M(i, i) > 0.) || !(pivots[i] * pivots[i] > 1e-14 * M(i, i)))
-      refuse("the mass matrix is singular at " + coordinate_name(int(i)) + "; give it mass, or take the method bdf");
+      refuse("the mass matrix is singular at " + coordinate_name(int(i)) + "; give it mass, or use the method bdf");
   if (cholesky.info() != Eigen::Success)
-    refuse("the mass matrix is not positive definite; take the method bdf");
+    refuse("the mass matrix is not positive definite; use the method bdf");
 
   RealModes                   modes;
   const SymmetricPencilSolver solver(C, M);
@@ -160,7 +160,7 @@ public:
     constexpr double coinciding = 1e10; // condition of the eigenvectors: beyond it six digits are left of 16
     if (!inverse_.allFinite() || !(X_.norm() * inverse_.norm() < coinciding * double(X_.rows())))
       refuse("two modes of the damped system coincide in frequency, damping and shape (critical damping across modes); "
-             "change a damper slightly, or take the method bdf");
+             "change a damper slightly, or use the method bdf");
     find_displacements();
   }
 
@@ -302,9 +302,9 @@ void add_harmonic(const Excitation::Harmonic &harmonic, ModalBlocks &to, Eigen::
     if (distance < resonance * omega)
     {
       std::ostringstream message;
-      message << "an undamped mode at " << omega / 6.283185307179586
-              << " Hz is driven at its own frequency, so that no forced motion exists; give it damping, or take "
-                 "another method";
+      message
+          << "an undamped mode at " << omega / 6.283185307179586
+          << " Hz is excited at its own frequency, so no steady response exists; add damping, or use another method";
       refuse(message.str());
     }
     const Eigen::Matrix2d K   = Lambda * Lambda + omega * omega * Eigen::Matrix2d::Identity();
@@ -407,12 +407,12 @@ ModalBlocks modal_blocks(const SecondOrderSystem &system, SharedModes *shared)
 {
   MatrixXd M, B, C;
   if (!system.linear().dense_matrices(M, B, C))
-    refuse("it works in the modes of the whole base system, and an unreduced frame has too many; reduce the frame, or "
-           "take the method bdf");
+    refuse("it needs all modes of the base system, too many for an unreduced frame; reduce the frame, or use the "
+           "method bdf");
   if (system.linear().excitation().has_rest())
-    refuse("the load is not a sum of harmonics; take the method bdf");
+    refuse("the load is not a sum of harmonics; use the method bdf");
   if (system.joints().n_rows() > 0)
-    refuse("ideal joints are not integrated by it; use compliant ones");
+    refuse("ideal joints are not supported; use compliant ones");
   const auto  name      = [&](int i) { return system.linear().coordinate_name(i); };
   ModalBlocks result    = shared ? shared->of(M, B, C, name) : modal_blocks(M, B, C, name);
   const auto &harmonics = system.linear().excitation().harmonics();

@@ -426,7 +426,7 @@ void ModalPropagation::fail(const std::string &reason) const
 {
   std::ostringstream message;
   message << reason << " at t = " << local_begin_.t << " s; the step was halved to " << spacing(rung_)
-          << " s; take a smaller step, locate events, or loosen the tolerance if it lies near rounding";
+          << " s; use a smaller step, locate events, or increase the tolerance if it is near rounding";
   throw ConvergenceFailure(message.str());
 }
 

@@ -127,7 +127,7 @@ void PropagationMethod::check(const MethodOptions &o) const
   require_parameter(!collocates(o) || (o.order % 2 == 0 && o.order >= 2 && o.order <= 8), label(o), "order", o.order,
                     "2, 4, 6 or 8");
   require_parameter(!controlled(o) || collocates(o), label(o), "tolerance", o.tolerance,
-                    "left out: only collocation of the force controls its step");
+                    "omitted, because only force = \"collocation\" controls its step");
 }
 
 std::unique_ptr<TimeIntegrator> PropagationMethod::make(const SecondOrderSystem &system, const MethodOptions &o) const

@@ -30,7 +30,7 @@ double largest_gap(const Eigen::VectorXd &g, const std::vector<ConstraintBlock> 
 [[noreturn]] void refuse_singular(const SecondOrderSystem &system, const std::string &method, const std::string &why)
 {
   std::ostringstream message;
-  message << method << ": the mass matrix is singular, so that the acceleration to begin with is not defined";
+  message << method << ": the mass matrix is singular, so the initial acceleration is undefined";
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(system.linear().size()), column = unit;
   int             massless = -1;
   for (int i = 0; i < system.linear().size() && massless < 0; ++i)
@@ -45,7 +45,7 @@ double largest_gap(const Eigen::VectorXd &g, const std::vector<ConstraintBlock> 
     message << ": " << system.linear().coordinate_name(massless) << " has no mass";
   else
     message << " (" << why << ")";
-  message << "; give it mass, or use bdf, which needs none";
+  message << "; give it a mass, or use the method bdf";
   throw std::invalid_argument(message.str());
 }
 
@@ -54,7 +54,7 @@ double largest_gap(const Eigen::VectorXd &g, const std::vector<ConstraintBlock> 
   int worst = 0;
   g.cwiseAbs().maxCoeff(&worst);
   std::ostringstream message;
-  message << "the joints cannot be closed at t = " << t << " s: " << system.joints().name(worst) << " stays open by "
+  message << "the joints cannot be assembled at t = " << t << " s: " << system.joints().name(worst) << " has a gap of "
           << g[worst] << " (m or rad); check positions and lengths";
   throw ConvergenceFailure(message.str());
 }
@@ -385,17 +385,17 @@ int ConsistentStart::most_iterations() const
 void ConsistentStart::fail_unconverged(double t) const
 {
   std::ostringstream message;
-  message << "the acceleration that belongs to the state at t = " << t << " s was not found in " << most_iterations()
+  message << "the acceleration for the state at t = " << t << " s was not found in " << most_iterations()
           << " iterations; the last correction was " << correction_.cwiseAbs().maxCoeff() << " m/s^2 (or rad/s^2)";
   int worst = 0;
   if (g_.size() > 0)
   {
     g_.cwiseAbs().maxCoeff(&worst);
-    message << ", and most of all the force of " << system_.joints().name(worst) << " goes on changing";
+    message << ", and the force of " << system_.joints().name(worst) << " changes most";
   }
   if (system_.forces().need_multipliers())
-    message << "; friction in a joint may make the force that causes it, so that the joint jams: lengthen the guide or "
-               "lower the coefficient";
+    message << "; friction in a joint may increase the force that causes it, so that the joint jams: lengthen the "
+               "guide or reduce the coefficient";
   throw ConvergenceFailure(message.str());
 }
 

@@ -24,8 +24,8 @@ constexpr double most_left      = 1e-7; ///< of the excursion of a measure, howe
 void fail_singular(const SecondOrderSystem &system, double t)
 {
   std::ostringstream message;
-  message << "the equation of the forces is singular at t = " << t << " s";
-  const char *separator = ": the elements that stick constrain the same motion, on ";
+  message << "the equations of the forces are singular at t = " << t << " s";
+  const char *separator = ": sticking elements constrain the same DOFs: ";
   for (const HeldMeasure &h : system.forces().held())
     for (Eigen::SparseMatrix<double>::InnerIterator it(system.forces().directions(), h.measure); it; ++it)
     {
@@ -33,16 +33,15 @@ void fail_singular(const SecondOrderSystem &system, double t)
       separator = ", ";
     }
   if (!system.forces().held().empty())
-    message << "; make one of them a regularised friction, or put a spring between them";
+    message << "; use regularised friction for one of them, or put a spring between them";
   throw ConvergenceFailure(message.str());
 }
 
 void fail_dependent(const SecondOrderSystem &system, int row, double t)
 {
   std::ostringstream message;
-  message << "the joints do not hold the mechanism at t = " << t << " s: " << system.joints().name(row)
-          << " follows from the others here, as in a stretched linkage, or says what they say; change the position, or "
-             "make that joint compliant";
+  message << "the joints do not constrain the mechanism at t = " << t << " s: " << system.joints().name(row)
+          << " is redundant here, as in a stretched linkage; change the position, or make this joint compliant";
   throw ConvergenceFailure(message.str());
 }
 
@@ -407,7 +406,7 @@ void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &bas
   if (W.cols() == 0)
   {
     if (!x.allFinite()) // with elements Newton sees it
-      throw ConvergenceFailure("the motion grew beyond all numbers at t = " + std::to_string(base.t) + " s");
+      throw ConvergenceFailure("the motion diverged at t = " + std::to_string(base.t) + " s");
     return;
   }
   take_measures(W, x, xi_free_);

@@ -22,12 +22,12 @@ LawWithoutValue law_without_value(const SecondOrderSystem &system, const LocalSt
     if (value && slopes)
       continue;
     std::ostringstream words;
-    words << "the law of \"" << forces.element_of(block.first_measure) << "\" has "
+    words << "the force law of \"" << forces.element_of(block.first_measure) << "\" has "
           << (value ? "an infinite slope" : "no finite value") << " at t = " << state.t;
     for (int j = 0; j < n; ++j)
       words << ", u = " << state.u[block.first_measure + j] << ", u' = " << state.v[block.first_measure + j];
-    words
-        << " (SI units); keep its arguments in the range of the law, by if or max in a formula, or end the run before";
+    words << " (SI units); keep its arguments within the range of the law (if or max in a formula), or end the run "
+             "before";
     return {forces.element_of(block.first_measure), words.str()};
   }
   return {};

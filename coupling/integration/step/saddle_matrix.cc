@@ -40,7 +40,7 @@ struct SaddleMatrix::PivotSearch
     int *begin = K.outerIndexPtr(), *rows = K.innerIndexPtr();
     symbolic = klu_analyze_given(int(K.cols()), begin, rows, order.data(), order.data(), &common);
     if (!symbolic)
-      throw std::runtime_error("SaddleMatrix: KLU refuses the matrix");
+      throw std::runtime_error("SaddleMatrix: KLU rejects the matrix");
     numeric = klu_factor(begin, rows, K.valuePtr(), symbolic, &common);
   }
   ~PivotSearch()
@@ -94,9 +94,8 @@ void SaddleMatrix::collect_base(const SecondOrderSystem &system)
 {
   Sparse M, B, C;
   if (!system.linear().sparse_matrices(M, B, C))
-    throw std::invalid_argument(
-        "the joints of this machine are solved condensed to the measures only: its frame hands out "
-        "no matrices that could be factorised in every step");
+    throw std::invalid_argument("the joints of this machine can only be solved condensed, because its frame provides "
+                                "no matrices to factorise in every step");
   Triplets all;
   for (const Sparse *part : {&M, &B, &C})
     for (int j = 0; j < n_; ++j)

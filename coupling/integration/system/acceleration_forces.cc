@@ -18,8 +18,8 @@ bool depend_on_accelerations(const SecondOrderSystem &system, const LocalState &
 void refuse_acceleration_forces(const SecondOrderSystem &system, const LocalState &at, const std::string &method)
 {
   if (depend_on_accelerations(system, at))
-    throw std::invalid_argument(method + " does not carry accelerations, on which a force depends, such as that of an "
-                                         "unbalance; take the method bdf or one of the Newmark family");
+    throw std::invalid_argument(method + " does not support forces that depend on accelerations, such as an unbalance; "
+                                         "use the method bdf or one of the Newmark family");
 }
 
 } // namespace gestell::coupling

@@ -11,7 +11,7 @@ void Excitation::add_harmonic(int coordinate, double omega, double cosine, doubl
 {
   if (!(omega > 0.))
     throw std::invalid_argument("Excitation: circular frequency " + std::to_string(omega) +
-                                " rad/s; it must be positive, a constant load is given as such");
+                                " rad/s; it must be positive; give a constant load as such");
   Harmonic *same = nullptr;
   for (Harmonic &harmonic : harmonics_)
     if (harmonic.omega == omega)

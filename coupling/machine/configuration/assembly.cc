@@ -367,8 +367,8 @@ private:
     std::ostringstream message;
     message << "the mechanism cannot be assembled: with the given " << what << " "
             << (worst < n_c_ ? "the joint " + machine_.joints().name(worst) : demands[worst - n_c_].name)
-            << " stays open by " << open << " " << unit
-            << "; check its places and lengths, or give fewer or other values in [start]";
+            << " has a gap of " << open << " " << unit
+            << "; check its points and lengths, or give fewer or other values in [start]";
     throw std::invalid_argument(message.str());
   }
 

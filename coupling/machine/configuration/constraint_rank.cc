@@ -121,23 +121,22 @@ std::string ConstraintRank::dependence() const
         add_once(joints, joint_of(order[j]));
     const std::string equation               = machine_.joints().name(row);
     (is_torque(equation) ? torques : forces) = true;
-    lines.emplace_back(row, "\n  " + equation + ", which holds " + joined(bodies_of(row)) + ", " +
-                                (joints.empty() ? "holds nothing that could move"
+    lines.emplace_back(row, "\n  " + equation + ", which constrains " + joined(bodies_of(row)) + ", " +
+                                (joints.empty() ? "constrains nothing that could move"
                                                 : "follows from the equations of " + joined(joints)));
   }
   std::sort(lines.begin(), lines.end());
-  std::string text = "the joints say the same twice, or do not hold the mechanism in this position; ";
+  std::string text = "the joints are redundant, or do not constrain the mechanism in this position; ";
   text += dependent_ == 1 ? "one equation is redundant:" : std::to_string(dependent_) + " equations are redundant:";
   for (const auto &line : lines)
     text += line.second;
-  text += "\nLeave out what is held twice: ";
+  text += "\nRemove the redundant constraint: ";
   if (torques)
-    text += "a spherical joint in place of a revolute or rigid one frees rotations, ";
+    text += "a spherical joint instead of a revolute or rigid one frees rotations, ";
   if (forces)
-    text += "a cylindrical one in place of a revolute one frees a shift, an in-plane one in place of a prismatic one a "
-            "shift and rotations; ";
-  return text + "or make one of the joints compliant, by springs in its place; or, if it is the position, start "
-                "elsewhere";
+    text += "a cylindrical one instead of a revolute one frees a translation, an in-plane one instead of a prismatic "
+            "one a translation and rotations; ";
+  return text + "or make one of the joints compliant; or, if the cause is the position, start in another one";
 }
 
 std::string ConstraintRank::nearly_dependent() const

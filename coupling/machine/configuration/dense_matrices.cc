@@ -116,8 +116,8 @@ void Engaged::operator()(const ElementPlacement &placement, const double *u, Eig
   open_branch(*placement.element, u, K.data(), D.data());
   if (K == engaged_K && D == engaged_D && !(K.isZero(0.) && D.isZero(0.)))
     throw std::invalid_argument("modes: element \"" + placement.name +
-                                "\" acts in every position, so that it cannot be open; leave it out of "
-                                "modes.open, and for modes without it take it out of the scene");
+                                "\" acts in every position, so it cannot be open; remove it from modes.open, and for "
+                                "modes without it also from the scene");
 }
 
 } // namespace

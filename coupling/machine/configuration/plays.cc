@@ -121,10 +121,10 @@ std::vector<std::string> closing_warnings(const Machine &machine, const std::vec
         speed <= rounding * v.norm() || !is_free_to_move(machine, v_given, state, own.G))
       continue;
     std::ostringstream text;
-    text << "the start closes the play of \"" << own.name << "\" at " << std::setprecision(3) << speed
-         << " m/s (or rad/s): the bodies on both sides of it start at speeds that do not fit together, so that the "
-            "first impact belongs to the start alone. Take start.rule = \"steady\" with the speed of the drive in "
-            "start.v, or give the speeds of these bodies there, zero included";
+    text << "the initial state closes the clearance of \"" << own.name << "\" at " << std::setprecision(3) << speed
+         << " m/s (or rad/s): the initial speeds of the bodies on both sides are inconsistent, so the first impact is "
+            "caused by the initial state only. Use start.rule = \"steady\" with the speed of the drive in start.v, or "
+            "give the speeds of these bodies there, also if zero";
     warnings.push_back(text.str());
   }
   return warnings;

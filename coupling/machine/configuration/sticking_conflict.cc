@@ -78,8 +78,8 @@ std::string words_of(const Machine &machine, const std::string &element, const E
                      machine.coordinate_name(int(most)) + ", which ";
   for (std::size_t i = 0; i < others.size(); ++i)
     text += (i == 0 ? "\"" : i + 1 == others.size() ? " and \"" : ", \"") + others[i] + "\"";
-  return text + (others.size() == 1 ? " holds" : " hold") +
-         " too: how they share its force is not defined.  Leave one of them out, give it the type \"friction\", which "
+  return text + (others.size() == 1 ? " also constrains" : " also constrain") +
+         ": how they share the force is undefined. Remove one of them, give it the type \"friction\", which "
          "creeps, put a spring between them, or start in motion";
 }
 

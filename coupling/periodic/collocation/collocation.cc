@@ -296,7 +296,7 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
     const VectorXd dP = lu_solution(J, r);
     if (!dP.allFinite())
       throw NoPeriodicMotion("collocation: the motion is undetermined: no element acts at the points of the mesh; "
-                             "begin closer to the motion (--lead-in), or use shooting");
+                             "start closer to the solution (--lead-in), or use shooting");
     const Index n    = u_0_.size(); // forces; free states and the period follow them
     newton.converged = (dP.head(n).norm() <= options.tolerance * P.head(n).norm() || P.head(n).isZero(0.)) &&
                        (!problem_.period_is_unknown() || std::abs(dP.tail(1)[0]) <= options.tolerance * P.tail(1)[0]);
@@ -320,7 +320,7 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
   if (newton.converged)
     return newton.iterations;
   throw NoPeriodicMotion(
-      "collocation: Newton's method does not converge; begin closer to the motion (--lead-in), or use shooting");
+      "collocation: Newton's method does not converge; start closer to the solution (--lead-in), or use shooting");
 }
 
 VectorXd PeriodicCollocation::carried_over(const std::vector<double> &mesh, const VectorXd &P) const

@@ -220,7 +220,7 @@ std::string HarmonicBalanceMethod::refuses(const PeriodicProblem &problem) const
     return "harmonic balance: no force depends on the angle of " + free_coordinate(problem) +
            ", so its rotation in a period is arbitrary, but a series needs that angle beforehand; use shooting";
   if (problem.period_is_unknown() && !system.linear().excitation().is_constant())
-    return "harmonic balance: the load determines the period, and a phase condition another one; remove one of them";
+    return "harmonic balance: the load determines the period, so a phase condition is not possible; remove one of them";
   return "";
 }
 
@@ -319,7 +319,7 @@ void BalanceSearch::begin(const PeriodicGuess &guess)
   message.precision(2);
   message << "harmonic balance: Newton's method with " << balance_.harmonics() << " harmonics reached a residual of "
           << newton_.residual << " of the motion after " << iterations_
-          << " iterations; begin closer to the motion, or use shooting or settling";
+          << " iterations; start closer to the solution, or use shooting or settling";
   throw ConvergenceFailure(message.str());
 }
 

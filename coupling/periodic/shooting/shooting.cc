@@ -153,7 +153,7 @@ void refuse_rest(const PeriodicProblem &problem, const PeriodicGuess &guess, con
   constexpr double at_rest = 1e-6; // speed of a motion, of its guess: an equilibrium, but for the steps' errors
   if (!(moves > at_rest * meant))
     throw NoPeriodicMotion(
-        "the search converged to rest, which has no period; begin closer to the intended motion (--lead-in)");
+        "the search converged to rest, which has no period; start closer to the intended solution (--lead-in)");
 }
 
 void note_residual(PeriodicSolution &solution, double tolerance)
@@ -194,7 +194,7 @@ std::string free_motion(const MatrixXd &jacobian, const LinearSystem &linear)
   else if (equations.jacobian().size() > 0)
     if (const std::string free = free_motion(equations.jacobian(), problem.system->linear()); !free.empty())
       throw UndeterminedMotion(text.str() + "; undetermined DOF " + free + ": add a spring, or give it a drive");
-  text << "; begin closer to it (more periods of lead-in), or try --method settling or minimise";
+  text << "; start closer to it (more periods of lead-in), or try --method settling or minimise";
   throw NoPeriodicMotion(text.str());
 }
 

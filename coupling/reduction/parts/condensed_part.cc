@@ -40,7 +40,7 @@ SparseCholesky factor_of(const PartOfFrame &part)
   }
   throw std::invalid_argument("parts: " + part.name +
                               " moves freely although its interface is fixed; a frame of unconnected bodies without "
-                              "supports cannot be cut. Leave out 'parts'");
+                              "supports cannot be cut into parts; remove 'parts'");
 }
 
 /// Whether the inertia of C - omega^2 M in the gap above the modes gives as many.

@@ -47,15 +47,14 @@ void check_switches(const Machine &machine, double begin, const std::vector<Even
         std::none_of(machine.model().switches().begin(), machine.model().switches().end(),
                      [&](const Switch &own) { return own.name == event.name && at_the_start(own, begin); }))
       outcome.warn("switch-at-start", event.name,
-                   "switch " + event.name +
-                       " was thrown at the start: its signal lay at the value or beyond it already");
+                   "switch " + event.name + " triggered at the start: its signal had already reached the threshold");
   if (!outcome.reached_end())
     return;
   for (int i = 0; i < machine.events().n_guards(); ++i)
     if (const ActiveGuard guard = machine.events().guard(i);
         guard.kind == "switch" && !happened(events, guard) && !ends_the_run(machine, guard.name))
       outcome.warn("switch-never-thrown", guard.name,
-                   "switch " + guard.name + " was never thrown: its signal did not reach the value");
+                   "switch " + guard.name + " never triggered: its signal did not reach the threshold");
 }
 
 std::string end_by_switch(const Machine &machine, double begin, const Event &event)
@@ -65,8 +64,8 @@ std::string end_by_switch(const Machine &machine, double begin, const Event &eve
     return "";
   std::ostringstream text;
   text << (event.t == begin ? "at the start, t = " : "at t = ") << event.t << " s, " << own->ends << ": " << own->signal
-       << (own->crossing == SwitchCrossing::rising    ? " lies above "
-           : own->crossing == SwitchCrossing::falling ? " lies below "
+       << (own->crossing == SwitchCrossing::rising    ? " is above "
+           : own->crossing == SwitchCrossing::falling ? " is below "
                                                       : " passes ")
        << own->level << ", where switch \"" << own->name << "\" ends the run";
   return text.str();
@@ -78,9 +77,9 @@ void check_closed_contacts(const Machine &machine, const InitialState &initial, 
   machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
   for (const std::string &contact : machine.closed_contacts(local))
     outcome.warn("contact-at-start", contact,
-                 "the start lies inside the contact of " + contact +
-                     "; it pushes from the first instant on. If that is not meant, change the position or the "
-                     "play, or start with rule = \"static\"");
+                 "the contact of " + contact +
+                     " is closed in the initial state and pushes at once. If this is not intended, change the position "
+                     "or the clearance, or use start.rule = \"static\"");
 }
 
 void check_unlocated_friction(const Machine &machine, RunOutcome &outcome)
@@ -89,8 +88,8 @@ void check_unlocated_friction(const Machine &machine, RunOutcome &outcome)
     if (law_of<mechanism::CoulombFriction>(placement))
       return outcome.warn("friction-without-events", placement.name,
                           "run.events = false, but the dry friction of \"" + placement.name +
-                              "\" is made for located events: without them it may hold more than its limit, or "
-                              "chatter; leave run.events true, or take the type \"friction\"");
+                              "\" needs located events: without them its force may exceed its limit, or chatter; set "
+                              "run.events = true, or use the type \"friction\"");
 }
 
 } // namespace gestell::coupling

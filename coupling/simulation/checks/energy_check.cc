@@ -29,11 +29,11 @@ std::string method_and_step(const MethodOptions &method)
 std::string remedy(const MethodOptions &method, EnergyGuard::Verdict verdict)
 {
   if (method.tolerance > 0.)
-    return "; take a smaller tolerance";
+    return "; use a smaller tolerance";
   if (verdict == EnergyGuard::Verdict::no_motion)
-    return "; take a smaller step, or method = \"bdf\" with a tolerance, which finds its steps itself";
+    return "; use a smaller step, or method = \"bdf\" with a tolerance, which finds its steps itself";
   const std::string advice = method_of(method).energy_advice(method);
-  return "; take a smaller step" + (advice.empty() ? "" : ". " + advice);
+  return "; use a smaller step" + (advice.empty() ? "" : ". " + advice);
 }
 
 /// The balance must not err more than the integrator.

@@ -281,22 +281,22 @@ void ForceBandwidthCheck::finish(RunOutcome &outcome)
     return;
   std::sort(doubtful.begin(), doubtful.end(), [&](auto i, auto j) { return doubt(i, 0) > doubt(j, 0); });
   std::ostringstream text;
-  text << "forces change faster than the reduced frame, made to hold up to " << limit_ << " Hz, can follow: ";
+  text << "forces change faster than the reduced frame (frequency limit " << limit_ << " Hz) can follow: ";
   constexpr int most_named = 3; // places of one message
   for (std::size_t k = 0; k < std::min<std::size_t>(doubtful.size(), most_named); ++k)
   {
     const Place &place = places_[doubtful[k]];
-    text << (k > 0 ? "; " : "") << "at " << place.name << ", where modes above carry " << percent_of(place.above)
-         << " of the flexibility, about " << percent_of(doubt(doubtful[k], 0)) << " of the deflection is in doubt";
+    text << (k > 0 ? "; " : "") << "at " << place.name << ", where omitted modes have " << percent_of(place.above)
+         << " of the flexibility, about " << percent_of(doubt(doubtful[k], 0)) << " of the deflection is uncertain";
   }
   if (doubtful.size() > most_named)
     text << "; and at " << doubtful.size() - most_named << " more";
-  text << ". Give reduction.frequency a larger value: ";
+  text << ". Increase reduction.frequency: ";
   if (enough < n_ranges)
-    text << limit_ * (1 << enough) << " Hz holds what they contain";
+    text << limit_ * (1 << enough) << " Hz covers these forces";
   else
     text << "more than " << limit_ * (1 << (n_ranges - 1))
-         << " Hz would be needed; double it until the response no longer changes";
+         << " Hz is needed; double it until the response no longer changes";
   outcome.warn("force-bandwidth", places_[doubtful.front()].name, text.str());
 }
 

@@ -54,10 +54,9 @@ void check_tilting_rotors(const Machine &machine, const Eigen::VectorXd &v, RunO
       continue;
     std::ostringstream text;
     text.precision(2);
-    text << "the rotor " << body.name << " is carried by what tilts, and has no gyroscopic moments: at its speed they "
-         << "would be " << 100. * kappa
-         << " % of the moments that hold its axis. Where it matters, make it a body of type \"rigid\" in revolute "
-            "joints";
+    text << "the carrier of the rotor " << body.name
+         << " tilts, but a rotor has no gyroscopic moments; at its speed they would be " << 100. * kappa
+         << " % of the moments on its axis. If this is relevant, use a body of type \"rigid\" in revolute joints";
     outcome.warn("gyroscopic-moments", body.name, text.str());
   }
 }

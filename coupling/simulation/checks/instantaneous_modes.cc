@@ -63,12 +63,12 @@ void InstantaneousModes::finish(RunOutcome &outcome)
     return;
   std::ostringstream text;
   text.precision(3);
-  text << "modal superposition: the modes are those of the averaged machine, and at " << 100 * apart_ / looks_
-       << " % of " << looks_ << " instants the machine of the moment had frequencies more than "
-       << 100. * allowed_difference << " % away from them, the most mode " << mode_ << " at t = " << t_ << " s with "
-       << omega_ / two_pi << " Hz in place of " << averaged_[mode_ - 1] / two_pi
-       << " Hz; see that more modes change nothing (modes.open names contacts that are open most of the time), or take "
-          "method = \"craig-bampton\"";
+  text << "modal superposition: the modes are those of the averaged machine; at " << 100 * apart_ / looks_ << " % of "
+       << looks_ << " instants the actual frequencies differed by more than " << 100. * allowed_difference
+       << " %, most for mode " << mode_ << " at t = " << t_ << " s with " << omega_ / two_pi << " Hz instead of "
+       << averaged_[mode_ - 1] / two_pi
+       << " Hz; check that more modes do not change the result (modes.open lists contacts that are usually open), or "
+          "use method = \"craig-bampton\"";
   outcome.warn("instantaneous-modes", "mode " + std::to_string(mode_), text.str());
 }
 

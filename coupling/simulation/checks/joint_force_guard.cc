@@ -100,9 +100,9 @@ void JointForceGuard::step()
   text << "the force of the joint " << machine_.joints().name(int(row)) << " is " << force
        << " (N or N m) at t = " << integrator_.time()
        << " s, but all loads, elements and inertia forces of the machine add up to " << largest_
-       << ", so that it is not physical.  Joints constrain one motion twice here, or forbid what they should leave "
-          "free: check points and axes of this joint and its neighbours, make one of them compliant by a 'stiffness', "
-          "or start in another position";
+       << ", so it is not physical. Joints constrain a DOF twice here, or constrain one that should be free: check "
+          "points and axes of this joint and its neighbours, make one of them compliant by a 'stiffness', or start in "
+          "another position";
   throw ConvergenceFailure(text.str());
 }
 

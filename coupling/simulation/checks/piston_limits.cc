@@ -29,10 +29,10 @@ PistonLimits::PistonLimits(const Machine &machine, const TimeIntegrator &integra
       limit.advice = advice;
       limits_.push_back(limit);
     };
-    const std::string end = "the piston comes to the end of its stroke";
+    const std::string end = "the piston reaches the end of its stroke";
     if (const auto *gas = law_of<mechanism::GasForce>(placement))
       add("volume", 1., -gas->least_volume(), "gas-stroke", end,
-          "its law knows no end: put a \"stop\" there, or raise 'clearance_volume'");
+          "its force law has no end stop: add a \"stop\" there, or increase 'clearance_volume'");
     const auto *cylinder = law_of<mechanism::HydraulicCylinder>(placement);
     if (!cylinder)
       continue;
@@ -41,8 +41,8 @@ PistonLimits::PistonLimits(const Machine &machine, const TimeIntegrator &integra
     for (const std::string chamber : {"a", "b"})
       add("pressure_" + chamber, 1., 0., "hydraulic-pressure",
           "the pressure in chamber " + std::string(chamber == "a" ? "A" : "B") + " falls below zero",
-          "oil cavitates there, but its column is taken to pull: raise the pressure, or hold the load");
-    const std::string stop = "its law knows no end: put a \"stop\" there, or feed less oil";
+          "real oil cavitates, but the model allows tension: increase the pressure, or support the load");
+    const std::string stop = "its force law has no end stop: add a \"stop\" there, or reduce the flow";
     add("stroke", 1., -a - near, "hydraulic-stroke", end + " on the side of chamber A", stop);
     add("stroke", -1., b - near, "hydraulic-stroke", end + " on the side of chamber B", stop);
   }
@@ -78,7 +78,7 @@ void PistonLimits::finish(RunOutcome &outcome)
     std::ostringstream text;
     text << limit.object << ": " << limit.what << " at t = " << limit.first << " s";
     if (limit.signal.unit == "Pa")
-      text << ", to " << limit.lowest << " Pa at the lowest";
+      text << ", to " << limit.lowest << " Pa at minimum";
     text << "; " << limit.advice;
     outcome.warn(limit.id, limit.object, text.str());
   }

@@ -67,7 +67,7 @@ public:
     const Counts &total = total_;
     if (total[rejected] > 0. && !controlled(options_.method))
       outcome.warn("divided-steps", "run.step",
-                   "Newton failed in " + std::to_string(long(total[rejected])) + " steps; they were divided");
+                   "Newton's method failed in " + std::to_string(long(total[rejected])) + " steps, which were divided");
     const double     share          = total[chatter_time] / (std::max(options_.end, motion_.time()) - options_.begin);
     constexpr double seldom_skipped = 1e-4; // share of a run whose events need not be located
     constexpr double often_skipped  = 0.1;  // share of controlled steps that skip events
@@ -77,7 +77,7 @@ public:
       return;
     std::ostringstream text;
     text << "chatter: " << long(total[chatter]) << " steps, " << 100. * share
-         << " % of the run, had more events than are located; they were passed without being located";
+         << " % of the run, had too many events to locate; these events were not located";
     outcome.warn("chatter", "run.events", text.str());
   }
   /// The counters of the integrator continue where its motion restarted: counts of the discarded motion are removed.
@@ -172,8 +172,9 @@ void check_fast_loads(const Machine &machine, RunOutcome &outcome)
   if (fastest <= frame->frequency_limit_hz)
     return;
   std::ostringstream text;
-  text << "a load has " << fastest << " Hz, but the reduced frame is meant to hold up to " << frame->frequency_limit_hz
-       << " Hz only: give reduction.frequency a larger value, or the model does not contain what this load excites";
+  text << "a load has " << fastest << " Hz, but the frequency limit of the reduced frame is "
+       << frame->frequency_limit_hz
+       << " Hz, so the model omits modes that this load excites; increase reduction.frequency";
   outcome.warn("load-frequency", "reduction.frequency", text.str());
 }
 
@@ -220,7 +221,7 @@ std::string faults_of(const Machine &machine, double t)
   for (const ElementPlacement &placement : machine.model().elements())
     if (const auto *law = law_of<mechanism::UserForce>(placement))
       if (const std::string fault = law->fault(t); !fault.empty())
-        text += ".  In \"" + placement.name + "\" " + fault;
+        text += ". In \"" + placement.name + "\" " + fault;
   return text;
 }
 
@@ -230,14 +231,14 @@ std::string advice_on_failure(const Machine &machine, const MethodOptions &metho
   if (!text.empty())
     return text;
   if (const std::string joint = ConstraintRank::at(machine, last.t, last.q).nearly_dependent(); !joint.empty())
-    text += ".  The linkage is near a dead position, in which it may go two ways: " + joint +
-            " is about to follow from the other joints; keep it off there, or make a joint compliant";
+    text += ". The linkage is near a dead-centre position with two possible motions: " + joint +
+            " becomes redundant; avoid this position, or make a joint compliant";
   bool rubs = false;
   for (const ElementPlacement &placement : machine.model().elements())
     rubs = rubs || law_of<mechanism::PointContact>(placement) || law_of<mechanism::JournalBearing>(placement);
   if (rubs && controlled(method))
-    text += ".  If a contact with friction slides and sticks there, give its friction a larger 'speed', over which it "
-            "develops, or take a fixed step";
+    text += ". If a contact with friction slides and sticks there, increase the 'speed' of its friction, or use a "
+            "fixed step";
   return text;
 }
 

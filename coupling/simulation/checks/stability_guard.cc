@@ -311,7 +311,7 @@ std::string StabilityGuard::message_of(const ModeAccuracy &worst) const
   const std::string sign = method_of(options_).carries_base() ? "omega_contact h" : "omega h";
   std::string text = method_name(options_) + " is unstable with run.step = " + step_text(options_.step) + ": for " +
                      describe(worst) + " " + sign + " is " + number(worst.omega_h, 5) + interval_text(worst, options_) +
-                     ", and its amplitude grows by the factor " + growth_text(worst) + " in every step";
+                     ", and its amplitude grows by a factor of " + growth_text(worst) + " in every step";
   if (others > 0)
     text += " (" + std::to_string(others) + (others == 1 ? " more mode grows" : " more modes grow") + ")";
   return text;
@@ -380,13 +380,13 @@ void StabilityGuard::check() const
   if (!worst || method_of(options_).carries_base())
     return;
   const double      step = largest_stable_step();
-  const std::string way =
-      step > 0. ? "take run.step = \"" + step_text(step) +
-                      "\", the largest one below that is stable with this method (accuracy wants less), or "
-                : "no smaller step that would be of use is known to be stable with this method; take ";
+  const std::string way  = step > 0.
+                               ? "use run.step = \"" + step_text(step) +
+                                    "\", the largest stable step of this method (accuracy needs a smaller one), or "
+                               : "no useful smaller step is known to be stable with this method; use ";
   throw std::invalid_argument(message_of(*worst) + "; " + way +
                               "run.method = \"bdf\" with run.order = 2, stable for every mode at any step; "
-                              "run.force_unstable = true runs it as it is");
+                              "run.force_unstable = true runs it anyway");
 }
 
 std::vector<std::string> StabilityGuard::warnings() const
@@ -397,7 +397,7 @@ std::vector<std::string> StabilityGuard::warnings() const
   if (!worst)
     return {};
   const double step = largest_stable_step();
-  return {message_of(*worst) + " as long as its contacts stay closed; run.force = \"average\" is stable at every step" +
+  return {message_of(*worst) + " while its contacts are closed; run.force = \"average\" is stable at every step" +
           (step > 0. ? ", this one with run.step = \"" + step_text(step) + "\" or less" : "")};
 }
 

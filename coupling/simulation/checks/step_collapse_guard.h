@@ -39,7 +39,7 @@ public:
       std::ostringstream text;
       text << "controlled steps have become too short to reach the end: " << window << " steps from t = " << from_
            << " s took " << t - from_ << " s, and at this pace the rest would need " << steps
-           << "; take a larger run.tolerance";
+           << "; use a larger run.tolerance";
       throw ConvergenceFailure(text.str());
     }
     from_ = t;

@@ -180,9 +180,9 @@ void add_of_time(const LocalForces &forces, const LocalState &state, double begi
     ++n_named;
     outcome.warn(resolution, element,
                  words("run.step: the force of ", element,
-                       hidden ? " acts between the ends of steps more than at them"
-                              : " changes faster than the steps follow (fewer than about ten in a period)",
-                       ": what happens there is not seen. Take much shorter steps than ", h,
+                       hidden ? " acts mainly between the ends of steps"
+                              : " changes too fast for the steps (fewer than about ten per period)",
+                       ", so it is not resolved. Use much shorter steps than ", h,
                        " s, until results no longer change"));
   }
 }
@@ -193,7 +193,7 @@ void add_of_loads(const Machine &machine, double h, RunOutcome &outcome)
   if (h * omega > 2. * M_PI / steps_of_period)
     outcome.warn(resolution, "run.step",
                  words("run.step: ", 2. * M_PI / (h * omega), " steps in a period of the load of ", omega / (2. * M_PI),
-                       " Hz; take at most a twentieth of that period, ", 2. * M_PI / omega / 20., " s"));
+                       " Hz; use at most a twentieth of that period, ", 2. * M_PI / omega / 20., " s"));
 }
 
 /// The first force that changes with the angle of a body and is equal after a revolution: one that is not depends on
@@ -229,9 +229,9 @@ void add_of_turning(const Machine &machine, const LocalState &last, const Vector
       continue;
     if (const Eigen::Index i = turning_with(machine.forces(), last, body.coordinate); i >= 0)
       outcome.warn(resolution, body.name,
-                   words("run.step: '", body.name, "' turns by ", std::abs(v[body.coordinate]) * h * 180. / M_PI,
+                   words("run.step: '", body.name, "' rotates by ", std::abs(v[body.coordinate]) * h * 180. / M_PI,
                          " degrees in a step, and the force of ", machine.forces().element_of(int(i)),
-                         " changes with its angle; take steps of at most a twentieth of a turn, ",
+                         " changes with its angle; use at most a twentieth of a revolution, ",
                          2. * M_PI / std::abs(v[body.coordinate]) / 20., " s"));
   }
 }
@@ -246,7 +246,7 @@ void require_steps_for_loads(const Machine &machine, const MethodOptions &method
     return;
   const double period = 2. * M_PI / omega;
   throw std::invalid_argument(words("run.step is ", h, " s, but a period of the load of ", 1. / period, " Hz is ",
-                                    period, " s, so that it would be missed; take at most a twentieth of it, ",
+                                    period, " s, which is too short for this step; use at most a twentieth of it, ",
                                     period / 20., " s"));
 }
 

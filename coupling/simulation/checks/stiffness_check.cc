@@ -149,11 +149,11 @@ void StiffnessCheck::fail(const LocalState &state, double share, const Watched &
   std::ostringstream text;
   text.precision(4);
   text << method_name(options_) << " is unstable with run.step = " << options_.step << " s from t = " << state.t
-       << " s on: element \"" << watched.placement->name << "\" has become " << share
-       << " times as stiff as the step stands, and its motion grows; take run.step = "
+       << " s: element \"" << watched.placement->name << "\" has become " << share
+       << " times too stiff for the step, and its motion grows; use run.step = "
        << std::min(options_.step, resolved / frequency_at_peak(watched, state.u))
        << " s or less, or run.method = \"bdf\" with run.order = 2, stable at any stiffness; run.force_unstable = true "
-          "runs it as it is";
+          "runs it anyway";
   throw ConvergenceFailure(text.str());
 }
 

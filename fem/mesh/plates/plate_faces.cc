@@ -105,8 +105,7 @@ public:
     drop_walls();
     for (const Face &face : read_)
       if (index_.count(face.tag) == 0 && walls_.count(face.tag) == 0)
-        throw NotSwept(describe(face) +
-                       ", is neither at right angles to the others nor the wall of a hole straight through a plate");
+        throw NotSwept(describe(face) + ", is neither perpendicular to the others nor the wall of a through hole");
     for (const Solid &solid : solids_)
     {
       result_.of_solid.emplace_back();

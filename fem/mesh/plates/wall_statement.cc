@@ -93,9 +93,9 @@ std::string wall_statement(const WallCount &walls, int n_extruded, bool alone)
       (walls.regions == 0 ? "" : " and " + number(walls.regions, "region") + " around holes and footprints") +
       (n_extruded == 0 ? "" : ", of " + along) + (alone ? ", without tetrahedra" : ", and of tetrahedra");
   if (walls.walls == 0)
-    return "plates are swept: none is three times as wide as thick; the mesh consists of " + pieces;
+    return "plates are meshed by sweeping: none is three times as wide as thick; the mesh consists of " + pieces;
   const bool alike = walls.thickest - walls.thinnest < 1e-6 * walls.thickest;
-  return "plates are swept: " + number(walls.walls, "wall") + ", " +
+  return "plates are meshed by sweeping: " + number(walls.walls, "wall") + ", " +
          (alike ? "" : text(1e3 * walls.thinnest) + " to ") + text(1e3 * walls.thickest) + " mm thick, are " +
          text(std::round(100. * walls.volume / walls.all)) + " % of their volume; the mesh consists of " + pieces;
 }

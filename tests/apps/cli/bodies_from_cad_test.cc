@@ -98,7 +98,7 @@ TEST(BodyFromCad, RotorTakesTheInertiaAboutItsAxisAndWarnsOfUnbalance)
   const auto nearby = Drawing(disc).scene("cad = \"part.geo\"\n" + rotor + "position = [\"30 mm\", \"7 m\", 0]\n");
   EXPECT_NEAR(nearby.bodies.at(0).inertia, 0.5 * M * 0.04 + M * 0.0009, 1e-9 * M) << "Steiner's theorem";
   ASSERT_EQ(nearby.warnings.size(), 1u);
-  EXPECT_THAT(nearby.warnings[0], HasSubstr("body.b.cad: the centre of mass lies 30 mm beside the axis"));
+  EXPECT_THAT(nearby.warnings[0], HasSubstr("body.b.cad: the centre of mass lies 30 mm off the axis"));
 }
 
 TEST(BodyFromCad, SliderAndPointTakeTheMassOfAllSolids)
@@ -131,10 +131,10 @@ TEST(BodyFromCad, WhatIsMissingContradictsOrIsNoSolidIsRefused)
                     steel = "material = \"steel\"\n";
   const auto says         = [&](const std::string &more) { return drawing.complaint(cad + more); };
   EXPECT_THAT(says(""), AllOf(HasSubstr("body.b"), HasSubstr("no density")));
-  EXPECT_THAT(says(steel + "mass = 3\n"), HasSubstr("leave one of them"));
+  EXPECT_THAT(says(steel + "mass = 3\n"), HasSubstr("keep one of them"));
   EXPECT_THAT(says(steel + "inertia = 3\n"), HasSubstr("follows from the shape"));
   EXPECT_THAT(says(steel + "position = [0, 0, 0]\n"), HasSubstr("placement"));
-  EXPECT_THAT(says(steel + "radius = 0.1\n"), HasSubstr("leave it out"));
+  EXPECT_THAT(says(steel + "radius = 0.1\n"), HasSubstr("remove it"));
   EXPECT_THAT(says(steel + "placement = { axis = [0, 0, 1] }\n"), HasSubstr("has an axis and no angle"));
   EXPECT_THAT(says("material = \"steal\"\n"), HasSubstr("steel"));
   EXPECT_THAT(drawing.complaint("cad = \"prat.geo\"\ntype = \"point\"\n" + steel), HasSubstr("prat.geo"));

@@ -139,7 +139,7 @@ TEST(CasesOfRanks, RanksWithoutWorkAreTold)
                                      " run \"" GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml\" "
                                      "--set run.end=0.01 --quiet -o \"" +
                                      folder.results().string() + "\"");
-  expect_answer(run, 0, {"gestell: ranks without work: 1 of 2; there was no frame to compute"});
+  expect_answer(run, 0, {"gestell: ranks without work: 1 of 2; no frame had to be computed"});
   EXPECT_EQ(count(on_ranks(4, program + " help stiffness").text, "ranks without work: 3 of 4"), 1);
 }
 

@@ -23,8 +23,9 @@ TEST(CompareOption, OfARunDrawsBothAndTellsItsLoads)
 {
   const Folder      folder("compare_run");
   const std::string press = scene("press_minimal.toml");
-  expect_answer(gestell("run " + press + " --set run.step='\"50 us\"' --compare " + press + folder.option()), 0,
-                {"beside press_minimal", "F_u above 1 % of its peak from 0.194", "cycles through a play"});
+  expect_answer(
+      gestell("run " + press + " --set run.step='\"50 us\"' --compare " + press + folder.option()), 0,
+      {"compared with press_minimal", "F_u: above 1 % of its peak from 0.194", "oscillations through a clearance"});
   const std::string report = read(folder.results() / "report.html");
   for (const char *id : {"compared-run", "compared-modes", "story"})
     EXPECT_NE(report.find("<section id=\"" + std::string(id) + "\""), std::string::npos) << id;
@@ -41,8 +42,10 @@ TEST(CompareOption, RefusesOddInputWithTheWayOut)
     expect_answer(gestell(ask + folder.option()), 2, words);
     EXPECT_FALSE(std::filesystem::exists(folder.results() / "summary.json"));
   };
-  refused("modes " + press + " --compare " + crane, {"share no motion", "crank.angle", "boom.angle", "the same name"});
-  refused("run " + press + " --compare " + crane, {"no signal of one name and unit", "F_P [N]", "[output.signals]"});
+  refused("modes " + press + " --compare " + crane,
+          {"have no body, interface or element of the same name", "crank.angle", "boom.angle", "use the same name"});
+  refused("run " + press + " --compare " + crane,
+          {"no signal of the same name and unit", "F_P [N]", "[output.signals]"});
   refused("modes " + press + " --compare nowhere.toml", {"--compare", "nowhere.toml"});
   refused("modes " + press + " --compare " + folder.file("odd.toml", "name = 3"), {"odd.toml"});
 }

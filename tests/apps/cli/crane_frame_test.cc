@@ -115,7 +115,7 @@ TEST(CraneFrame, RingsAsThePlanarCraneOnItsSprings)
   EXPECT_NEAR(run.event("limiter", "switch"), planar.event("limiter", "switch"), 0.01);
   EXPECT_NEAR(run.signal("Q4", "max"), planar.signal("Q4", "max"), 0.02 * planar.signal("Q4", "max"));
   for (const char *stage :
-       {"luffing", "braking", "ringing", "Ringing", "off the ground", "rear left", "machine linearised at rest"})
+       {"luffing", "braking", "ringing", "Ringing", "Wheel lift-off", "rear left", "machine linearised at rest"})
     EXPECT_TRUE(run.answer.says(stage)) << run.answer.text;
   EXPECT_NEAR(run.signal("F_hl", "max"), run.signal("F_hr", "max"), 1e-6 * run.signal("F_hl", "max"));
   EXPECT_LT(json_number(run.summary, {"energy", "residual"}), 1e-4 * json_number(run.summary, {"energy", "exchanged"}));

@@ -58,7 +58,7 @@ TEST_F(FrameCacheCommand, ExplainsHitAndMiss)
   expect_answer(shell(called + "reduce --explain " + scene), 0, {"is in the cache and would be used"});
 
   expect_answer(shell(called + "reduce --explain " + scene + " --set reduction.modes=1"), 0,
-                {"is not in the cache", "reduction.modes: kept 2, asked 1"});
+                {"is not in the cache", "reduction.modes: cached 2, requested 1"});
 
   std::filesystem::resize_file(kept(), 1000);
   const Answer damaged = shell(called + "reduce --explain " + scene);
@@ -128,12 +128,12 @@ TEST_F(FrameCacheCommand, RefusesWhatCannotBeMeant)
 {
   const auto says = [&](const std::string &arguments, const std::string &words)
   { expect_answer(shell(called + arguments), 2, {words}); };
-  says("reduce", "names no scene");
+  says("reduce", "the scene is missing");
   says("reduce --all", "add it");
   says("reduce --check", "--list or --prune");
   says("reduce --prune --older-than '3 parsecs'", "one of the units d, h, min, s, w");
   says("reduce --prune --larger-than many", "one of the units");
-  says("reduce --list " + scene, "leave out");
+  says("reduce --list " + scene, "; remove ");
   EXPECT_TRUE(std::filesystem::exists(kept()));
 }
 
@@ -141,10 +141,10 @@ TEST_F(FrameCacheCommand, ThatCannotKeepAFrameIsToldButNotInTheFrameThatIsPassed
 {
   const auto        frame  = [&] { return read(folder.results() / "reduced_frame.h5"); };
   const std::string reduce = "reduce " + scene + folder.option() + "--set reduction.modes=1";
-  expect_answer(shell(called + reduce), 0, {"reduced frame made"});
+  expect_answer(shell(called + reduce), 0, {"reduced frame created"});
   const std::string kept = frame();
   expect_answer(shell("GESTELL_CACHE=/dev/null '" GESTELL_BINARY_DIR "/bin/gestell' " + reduce), 0,
-                {"reduced frame made", "note: cache: the reduced frame is not stored"});
+                {"reduced frame created", "note: cache: the reduced frame is not stored"});
   EXPECT_TRUE(frame() == kept);
 }
 

@@ -38,11 +38,11 @@ TEST(TieRodPress, IsMadeOfThreeReductionsThatAChangeOfTheRodsKeeps)
                  arguments);
   };
   const auto list = [&] { return count(call("reduce --list").text, ".geo"); };
-  expect_answer(call("reduce " + scene("tie_rod_press.toml") + coarse), 0, {"reduced frame made"});
+  expect_answer(call("reduce " + scene("tie_rod_press.toml") + coarse), 0, {"reduced frame created"});
   EXPECT_EQ(list(), 3); // crown, column, bed
   expect_answer(call("reduce " + scene("tie_rod_press.toml") + coarse), 0, {"reduced frame from the cache"});
   const Answer other = call("reduce " + scene("tie_rod_press.toml") + coarse + " --set parameters.F_0='\"700 kN\"'");
-  expect_answer(other, 0, {"reduced frame made"});
+  expect_answer(other, 0, {"reduced frame created"});
   EXPECT_TRUE(other.says("clamping force 69") || other.says("clamping force 700 kN")) << other.text; // by the mesh
   EXPECT_EQ(list(), 3);
 }

@@ -37,7 +37,7 @@ TEST(FrfCommand, InterruptedLeavesNoLockAndNoFolder)
   const Answer cut = shell("(timeout --signal TERM 1 '" GESTELL_BINARY_DIR "/bin/gestell' " + press +
                            "--from frame.crown.uz --to frame.table.uz --points 900000 " + folder.option() + ")");
   EXPECT_EQ(cut.exit_code, 124) << cut.text;
-  EXPECT_TRUE(cut.says("interrupted; files that are not there yet are not written")) << cut.text;
+  EXPECT_TRUE(cut.says("interrupted; the remaining files are not written")) << cut.text;
   EXPECT_FALSE(std::filesystem::exists(folder.results()));
 }
 
@@ -57,7 +57,7 @@ TEST(FrfCommand, KeepsARunBesideIt)
   expect_answer(gestell("run " + scene("press_minimal.toml") + " --set run.end='\"10 ms\"'" + folder.option()), 0, {});
   const std::string report = read(folder.results() / "report.html");
   expect_answer(gestell(press + "--from slide --to slide --points 20" + folder.option()), 0,
-                {"holds a run, which is kept"});
+                {"contains a run, which is kept"});
   EXPECT_EQ(read(folder.results() / "report.html"), report);
   EXPECT_TRUE(std::filesystem::exists(folder.results() / "frf.csv"));
   EXPECT_TRUE(std::filesystem::exists(folder.results() / "charts" / "frf-amplitude.svg"));

@@ -57,7 +57,7 @@ std::string name_of(const testing::TestParamInfo<Mistake> &info)
 const std::vector<Mistake> of_the_press = {
     {"WrongUnit", {{"mass     = \"m3\"", "mass = \"3200 mm\""}}, {"3200 mm", "needs a mass such as \"3 t\""}},
     {"UnknownUnit", {{"\"80 mm\"", "\"80 milimeter\""}}, {"80 milimeter", "unknown unit 'milimeter'"}},
-    {"UnitsThatDoNotFit", {{"\"80 mm\"", "\"80 kg\""}}, {"2*r - z_BDC", "both must be of one kind"}},
+    {"UnitsThatDoNotFit", {{"\"80 mm\"", "\"80 kg\""}}, {"2*r - z_BDC", "both must have the same dimension"}},
     {"MisspeltKey", {{"breakdown_torque  =", "breakdown_torqe ="}}, {"breakdown_torqe", "'breakdown_torque'"}},
     {"MisspeltKeyBesideWhatIsMissing",
      {{"step   = \"10 us\"", "stp = \"10 us\""}},
@@ -65,7 +65,7 @@ const std::vector<Mistake> of_the_press = {
     {"TorqueOnAMassThatDoesNotTurn",
      {{"[element.sheet]", "[element.shake]\ntype = \"force\"\nfrom = \"frame.crown\"\nabout = [0, 1, 0]\n"
                           "constant = \"1 N m\"\n[element.sheet]"}},
-     {"element.shake", "\"frame.crown\" does not turn about [0, 1, 0]", "it has uz; name another motion"}},
+     {"element.shake", "\"frame.crown\" does not turn about [0, 1, 0]", "it has uz; name another DOF"}},
     {"ProfileAcrossAMassThatIsHeld",
      {{"[element.sheet]", "[element.shake]\ntype = \"force profile\"\nfrom = \"frame.crown\"\ndirection = [1, 0, 0]\n"
                           "profile = \"10 N*sin(t/s)\"\n[element.sheet]"}},
@@ -73,25 +73,25 @@ const std::vector<Mistake> of_the_press = {
     {"SpringAcrossAMassThatIsHeld",
      {{"[element.sheet]", "[element.shake]\ntype = \"spring-damper\"\nfrom = \"frame.crown\"\nto = \"frame.table\"\n"
                           "direction = [0, 1, 0]\nstiffness = \"1 N/mm\"\n[element.sheet]"}},
-     {"element.shake", "does not move along [0, 1, 0]", "name another motion"}},
+     {"element.shake", "does not move along [0, 1, 0]", "name another DOF"}},
     {"MeasureAcrossAMassThatIsHeld",
      {{"[element.sheet]", "[measure.lean]\ntype = \"along\"\nfrom = \"frame.crown\"\nto = \"frame.table\"\n"
                           "direction = [1, 0, 0]\n[element.sheet]"}},
      {"measure.lean", "frame.crown", "always zero"}},
     {"SignalOfAMotionThatIsHeld",
      {{"\"-frame.crown.uz\"", "\"frame.crown.rx\""}},
-     {"'frame.crown.rx' is always zero", "the frame has no such motion", "name another"}},
+     {"'frame.crown.rx' is always zero", "the frame has no such DOF", "name another"}},
     {"MisspeltTable", {{"[output.signals]", "[outputs.signals]"}}, {"outputs", "did you mean 'output'"}},
     {"ForgottenQuotes", {{"\"80 mm\"", "80 mm"}}, {"in quotes: \"80 mm\""}},
-    {"QuoteNotClosed", {{"\"3200 kg\"", "\"3200 kg"}}, {"a quote is opened here and not closed"}},
-    {"ArrayNotClosed", {{"[0, 0, \"-g\"]", "[0, 0, \"-g\""}}, {"an array above is not closed", "ends with ]"}},
+    {"QuoteNotClosed", {{"\"3200 kg\"", "\"3200 kg"}}, {"a quote opened here is not closed"}},
+    {"ArrayNotClosed", {{"[0, 0, \"-g\"]", "[0, 0, \"-g\""}}, {"an array above is not closed", "[value, value]"}},
     {"NameThatIsNotThere", {{"= \"slide\"", "= \"slid\""}}, {"'slid'", "did you mean 'slide'"}},
     {"MassZero", {{"\"3200 kg\"", "\"0 kg\""}}, {"m3, which is 0", "above zero such as \"3 t\""}},
     {"MassNegative", {{"\"3200 kg\"", "\"-3200 kg\""}}, {"m3, which is -3200", "above zero"}},
     {"MassNotANumber", {{"\"3200 kg\"", "nan"}}, {"m3", "is not a finite number"}},
-    {"StepLongerThanTheRun", {{"\"10 us\"", "\"1 s\""}}, {"run.step", "longer than the run itself, 0.45 s"}},
+    {"StepLongerThanTheRun", {{"\"10 us\"", "\"1 s\""}}, {"run.step", "longer than the run, 0.45 s"}},
     {"StepZero", {{"\"10 us\"", "0"}}, {"run.step", "above zero such as \"10 us\", got 0"}},
-    {"EndBeforeStart", {{"\"t_end\"\n\n", "\"-1 s\"\n\n"}}, {"run.end", "must lie after 'begin'", "-1 s"}},
+    {"EndBeforeStart", {{"\"t_end\"\n\n", "\"-1 s\"\n\n"}}, {"run.end", "must be after 'begin'", "-1 s"}},
     {"NoRun",
      {{"[run]\nmethod = \"bdf\"\norder  = 2\nstep   = \"10 us\"\nend    = \"t_end\"\n", ""}},
      {"there is no [run]", "end = \"0.5 s\""},
@@ -104,7 +104,7 @@ const std::vector<Mistake> of_the_press = {
      {"start.q.crank", "is 120 rad", "\"120 deg\""},
      0},
     {"CommaInText", {{"\"80 mm\"", "\"0,08 m\""}}, {"0,08 m", "write 0.08"}},
-    {"CommaInANumber", {{"s_K     = 0.15", "s_K = 0,15"}}, {"decimals have a point: 0.15"}},
+    {"CommaInANumber", {{"s_K     = 0.15", "s_K = 0,15"}}, {"write a decimal point: 0.15"}},
     {"PercentWithoutQuotes", {{"s_K     = 0.15", "s_K = 15%"}}, {"in quotes: \"15%\""}},
     {"DuplicateKey", {{"order  = 2", "order  = 2\norder = 3"}}, {"'order' is defined twice", "remove one"}},
     {"DuplicateTable", {{"[output.signals]", "[run]\n[output.signals]"}}, {"[run] is defined twice", "under one head"}},
@@ -190,13 +190,13 @@ TEST(MistakeInAFile, IsAnsweredWithItsLineAndWhatToSaveItAs)
   std::string  wide;
   for (const char c : press_scene())
     wide += {c, '\0'};
-  expect_answer(check("\xFF\xFE" + wide), 2, {"scene.toml:1: ", "save it as UTF-8"});
+  expect_answer(check("\xFF\xFE" + wide), 2, {"scene.toml:1: ", "encoding UTF-8"});
   expect_answer(check(edited(press_scene(), {{"# drive", "# Antrieb f\xFCr"}})), 2,
                 {"scene.toml:17: ", "save the file as UTF-8"});
   expect_answer(check(edited(press_scene(), {{"step   = \"10 us\"", "step   = 1e400"}})), 2,
                 {"scene.toml:196: ", "beyond 1.8e308"});
   expect_answer(check("ISO-10303-21;\n"), 2, {"scene.toml:1: ", "gestell mesh FILE", "frame.cad"});
-  expect_answer(check(""), 2, {"has nothing that moves", "[body.NAME]"});
+  expect_answer(check(""), 2, {"has no moving part", "[body.NAME]"});
   EXPECT_EQ(check("\xEF\xBB\xBF" + press_scene()).exit_code, 0); // what editors of Windows put there
   EXPECT_EQ(check(std::regex_replace(press_scene(), std::regex("\n"), "\r\n")).exit_code, 0);
   EXPECT_EQ(check(edited(press_scene(), {{"method =", "\tmethod\t="}})).exit_code, 0);
@@ -222,8 +222,8 @@ TEST(MistakeOnTheCommandLine, IsAnsweredWithTheOptionAndWhatItTakes)
   expect_answer(run("--checkpoint -5"), 2, {"--checkpoint", "zero or above, got -5"});
   expect_answer(run("--fast"), 2, {"there is no option --fast"});
   expect_answer(run("--qiuet"), 2, {"there is no option --qiuet; did you mean '--quiet'?"});
-  expect_answer(run("--resume"), 2, {"checkpoint.bin", "is not there", "without --resume"});
-  expect_answer(run("--resume --sensitivities all"), 2, {"--resume", "leave out one of the two"});
+  expect_answer(run("--resume"), 2, {"checkpoint.bin", "does not exist", "without --resume"});
+  expect_answer(run("--resume --sensitivities all"), 2, {"--resume", "omit one of the two"});
   expect_answer(gestell("chek " + file), 2, {"no command 'chek'", "did you mean 'check'"});
   expect_answer(gestell("foo"), 2, {"there is no command 'foo'; valid: 'run', 'modes'"});
   expect_answer(gestell("check a.toml b.toml"), 2, {"'b.toml' is an unexpected extra argument"});
@@ -252,7 +252,7 @@ TEST(NameThatCannotBeReached, IsAnsweredWithItsPlaceAndTheReasonWhereverItStands
     expect_answer(gestell("export " + press_scene + " --fmu " + name + "/x.fmu"), 2, {name, reason});
     expect_answer(gestell("new crane " + name + "/x.toml"), 2, {name, reason});
   }
-  expect_answer(gestell("run " + press_scene + " -o ''"), 2, {"--output", "is empty; give it a value"});
+  expect_answer(gestell("run " + press_scene + " -o ''"), 2, {"--output", "is empty; give a value"});
 }
 
 // They have no end, and some of them no begin.

@@ -216,7 +216,7 @@ TEST(ModesAlong, PositionsThatCannotBeAssembledAreGaps)
     EXPECT_EQ(at.gap.empty(), at.x < 0.01) << at.x << " " << at.gap;
   const auto warnings = apps::along_warnings(result);
   ASSERT_FALSE(warnings.empty());
-  expect_words(warnings[0], "1 of 5 positions are left out");
+  expect_words(warnings[0], "1 of 5 positions are omitted");
 }
 
 // f / f_0 = k at omega = 2 pi k f_0; orders of 8.5 Hz/4 meet the constant line in all positions, the other one where
@@ -303,7 +303,7 @@ TEST(ModesAlong, WithoutEquilibriumThePositionIsUndeformedAndThisIsTold)
     EXPECT_EQ(at.gap, "");
     EXPECT_EQ(at.configuration, coupling::Configuration::undeformed);
   }
-  expect_words(apps::along_warnings(result).front(), "3 positions are undeformed");
+  expect_words(apps::along_warnings(result).front(), "3 positions are linearised undeformed");
   expect_words(apps::along_warnings(result).front(), "load.uz");
 }
 

@@ -54,7 +54,7 @@ coupling::ReducedFrame reduced(const std::string &scene, int n)
   const Folder folder("mpi_" + std::to_string(n));
   const Answer answer = call(folder, n > 0 ? ranks(n) : "", "reduce " + scene + folder.option());
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
-  EXPECT_EQ(count(answer.text, "reduced frame made"), 1) << answer.text;
+  EXPECT_EQ(count(answer.text, "reduced frame created"), 1) << answer.text;
   return coupling::read_reduced_frame((folder.results() / "reduced_frame.h5").string());
 }
 
@@ -234,7 +234,7 @@ TEST(Mpi, AnotherLauncherIsRefused)
   const std::string other  = "PMI_SIZE=2 PMI_RANK=";
   const Answer      first  = call(folder, other + "0 ", "check " + scene("press.toml"));
   const Answer      second = call(folder, other + "1 ", "check " + scene("press.toml"));
-  expect_answer(first, 2, {"is of another MPI"});
+  expect_answer(first, 2, {"belongs to another MPI"});
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_FALSE(second.says("gestell")) << second.text;
 }

@@ -65,7 +65,7 @@ TEST(NewSceneFile, OfNoSuchKindNamesTheNearest)
 {
   expect_answer(gestell("new pres"), 2, {"'pres'", "did you mean 'press'?"});
   expect_answer(gestell("new mill"), 2, {"there is no kind of machine 'mill'", "'loom'", "'vibrating-conveyor'"});
-  expect_answer(gestell("new press machine.step"), 2, {"ends in .toml"});
+  expect_answer(gestell("new press machine.step"), 2, {"must end in .toml"});
 }
 
 } // namespace

@@ -80,7 +80,7 @@ TEST_F(NodeTable, MistakesAreToldWithFileLineAndRemedy)
 {
   const std::string head = "name,x,y,z,uz\n";
   expect(complaint("name,x,y,w\n"), {"scene.toml:", "nodes.csv:1: column 'w'", "valid: "});
-  expect(complaint("name,x,y,x\n"), {"is there twice"});
+  expect(complaint("name,x,y,x\n"), {"is a duplicate"});
   expect(complaint("name,x,y,uz\n"), {"has no column 'z'"});
   expect(complaint("name,x [kg],y,z\n"), {"'x [kg]'", "unit of length"});
   expect(complaint(""), {"is empty"});
@@ -92,10 +92,10 @@ TEST_F(NodeTable, MistakesAreToldWithFileLineAndRemedy)
   expect(complaint(head + "top,0,0,0,\n"), {"has no row"});
   expect(complaint(head + "top,0,0,0,1\ntop,0,0,0,2\n"), {"nodes.csv:3: node 'top' already exists", "nodes.csv:2"});
   expect(complaint(head + "top,0,0,0,1\nfoot,0,0,0,-1\n"), {"row 1, which is top.uz already"});
-  expect(complaint(head + "a.b,0,0,0,1\n"), {"no dots"});
+  expect(complaint(head + "a.b,0,0,0,1\n"), {"must not contain dots"});
   expect(complaint(head + ",0,0,0,1\n"), {"has no interface"});
   const std::string nodes = "nodes = \"nodes.csv\"\n";
-  expect(complaint(table, nodes + "[frame.interface.top]\nrows = { uz = 1 }\n"), {"already; rename"});
+  expect(complaint(table, nodes + "[frame.interface.top]\nrows = { uz = 1 }\n"), {"; rename one"});
   expect(complaint(table, "triangles = \"nodes.csv\"\n[frame.interface.a]\nrows = { uz = 1 }\n"), {"add nodes"});
   folder.write("triangles.csv", "a,b,c\n1,2,3\n");
   expect(complaint(table, nodes + "triangles = \"triangles.csv\"\n"), {"triangles.csv:2: there is no node 3"});

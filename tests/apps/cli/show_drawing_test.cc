@@ -32,7 +32,8 @@ TEST(Show, DrawsPeakMotionAndModesAndLeavesNoServerBehind)
   expect_answer(gestell("run " + scene("press_minimal.toml") + " --set output.picture_step='\"20 ms\"'" +
                         " --set run.end='\"0.1 s\"'" + folder.option()),
                 0, {});
-  expect_answer(gestell("modes " + scene("press_minimal.toml") + folder.option()), 0, {"holds a run, which is kept"});
+  expect_answer(gestell("modes " + scene("press_minimal.toml") + folder.option()), 0,
+                {"contains a run, which is kept"});
   const auto pictures = folder / "pictures";
   expect_answer(
       gestell("show '" + folder.results().string() + "' --quiet --width 400 --modes 1 -o '" + pictures.string() + "'"),

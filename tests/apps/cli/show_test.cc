@@ -29,7 +29,7 @@ TEST(Show, RefusesAFolderWithoutResults)
   expect_answer(gestell("show"), 2, {"needs the folder of a result"});
   expect_answer(gestell("show " + named(folder)), 2, {"is not a folder of results"});
   std::filesystem::create_directories(folder.results());
-  expect_answer(gestell("show " + named(folder)), 2, {"holds no motion.pvd", "gestell modes"});
+  expect_answer(gestell("show " + named(folder)), 2, {"contains no motion.pvd", "gestell modes"});
 }
 
 TEST(Show, RefusesABrokenCollectionWithTheFile)
@@ -42,7 +42,7 @@ TEST(Show, RefusesABrokenCollectionWithTheFile)
   write_motion(folder, head + "<DataSet timestep=\"0\" part=\"0\" file=\"a.vtp\"/>\n" + tail);
   expect_answer(gestell("show " + named(folder)), 2, {"a.vtp: named in motion.pvd, is missing"});
   write_motion(folder, head + tail);
-  expect_answer(gestell("show " + named(folder)), 2, {"names no data set"});
+  expect_answer(gestell("show " + named(folder)), 2, {"has no data set"});
   expect_answer(gestell("show --width 10 " + named(folder)), 2, {"--width: from 200 to 4000"});
 }
 

@@ -21,7 +21,7 @@ void expect_none_lost(const std::vector<Answer> &answers, const std::function<bo
   for (std::size_t i = 0; i < answers.size(); ++i)
     if (answers[i].exit_code == 0 && is_whole(int(i) + 1))
       ++whole;
-    else if (answers[i].exit_code == 2 && answers[i].says("; wait until it has ended"))
+    else if (answers[i].exit_code == 2 && answers[i].says("; wait until it ends"))
       ++refused;
     else
       ADD_FAILURE() << "call " << i + 1 << ": " << answers[i].exit_code << "\n" << answers[i].text;

@@ -122,7 +122,7 @@ TEST(StressRun, AReducedFrameWrittenWithoutStressesIsRefused)
   std::string       scene = bar("[output.stress]\n");
   const std::size_t begin = scene.find("cad "), end = scene.find("[element.load]");
   scene.replace(begin, end - begin, "reduced = \"" + (folder.results() / "reduced_frame.h5").string() + "\"\n");
-  expect_answer(gestell("run " + folder.file("again.toml", scene) + folder.option()), 2, {"written without stresses"});
+  expect_answer(gestell("run " + folder.file("again.toml", scene) + folder.option()), 2, {"contains no stresses"});
 }
 
 } // namespace

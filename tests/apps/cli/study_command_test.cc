@@ -27,7 +27,7 @@ TEST(StudyCommand, LeavesItsRowsAndGoesOnAfterAnInterruption)
   const Folder      folder("study_interrupted");
   const std::string study = "study " + folder.file("s.toml", text) + folder.option();
   const Answer      cut   = gestell(study + wait_for_rows(folder, 3) + "kill -INT $p; wait $p");
-  expect_answer(cut, 130, {"runs made", "to be made"});
+  expect_answer(cut, 130, {"runs made", " remaining"});
   const std::string before = read(folder.results() / "runs.csv");
   EXPECT_LT(lines_of(folder.results() / "runs.csv"), 41);
   expect_answer(gestell(study), 2, {"of 40 rows of this study; go on with --resume"});
@@ -46,7 +46,7 @@ TEST(StudyCommand, HasNoFailedRowOfRunsThatEndedWithIt)
   const Answer      cut =
       shell("GESTELL_CACHE='" GESTELL_BINARY_DIR "/tests/cache' setsid '" GESTELL_BINARY_DIR "/bin/gestell' " + study +
             wait_for_rows(folder, 3) + "kill -TERM -$p; wait $p");
-  expect_answer(cut, 130, {"runs made", "to be made"});
+  expect_answer(cut, 130, {"runs made", " remaining"});
   EXPECT_EQ(count(read(folder.results() / "runs.csv"), "failed"), 0);
   expect_answer(gestell(study + "--resume"), 0, {"report: "});
   EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 40);
@@ -61,14 +61,14 @@ TEST(StudyCommand, SharesNoFolderWithARun)
   EXPECT_NE(read(run.results() / "summary.json").find("\"energy\": null"), std::string::npos); // no perfect balance
   const std::string report = read(run.results() / "report.html");
   const std::string study  = "study " + own.file("s.toml", text) + " --set design.runs=4 ";
-  expect_answer(gestell(study + run.option()), 2, {"holds results of another command", "-o DIR"});
+  expect_answer(gestell(study + run.option()), 2, {"contains results of another command", "-o DIR"});
   EXPECT_EQ(read(run.results() / "report.html"), report);
 
   ASSERT_EQ(gestell(study + own.option() + "--share 1/2").exit_code, 0);
   const std::string list = read(own.results() / ".gestell-files");
   EXPECT_NE(list.find("study.json\n"), std::string::npos) << list;
   EXPECT_NE(list.find("runs_share_1_of_2.csv\n"), std::string::npos) << list;
-  expect_answer(gestell("run " + scene_of_run + own.option()), 2, {"it holds a study", "-o DIR"});
+  expect_answer(gestell("run " + scene_of_run + own.option()), 2, {"it contains a study", "-o DIR"});
 }
 
 TEST(StudyCommand, IsNotBegunTwiceInOneFolderAtOnce)
@@ -94,7 +94,7 @@ TEST(StudyCommand, DoesNotMergeSharesThatAreBeingMade)
   const Answer      both =
       gestell(study + "--share 1/2 & p=$!; while ! [ -s " + rows + " ]; do sleep 0.01; done; kill -STOP $p; '" +
               GESTELL_BINARY_DIR "/bin/gestell' " + study + "2>&1; kill -CONT $p; wait $p");
-  expect_answer(both, 0, {"is making a share of a study there", "6 runs made"});
+  expect_answer(both, 0, {"is running a share of a study there", "6 runs made"});
   expect_answer(gestell(study), 0, {"6 runs made"});
   EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 12);
   expect_answer(gestell(study + "--share 2/2"), 2, {"holds 12 rows of this study already"});

@@ -72,7 +72,7 @@ void clear(const fs::path &folder)
 
 std::string elsewhere(const Answer &answer)
 {
-  const std::string begin = "everything is in ", end = " instead";
+  const std::string begin = "all results are in ", end = " instead";
   const auto        from = answer.text.find(begin), to = answer.text.find(end);
   return from == std::string::npos ? "" : answer.text.substr(from + begin.size(), to - from - begin.size());
 }

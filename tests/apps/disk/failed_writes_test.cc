@@ -32,10 +32,10 @@ TEST(FailedWrite, LosesNoHistory)
   const std::string full   = full_disk(cases, folder.results() / "history.csv");
   const Answer      answer = shell(cases.command(run, folder.results(), "", full));
   expect_answer(answer, 3,
-                {"history.csv: cannot be written (No space left on device)", "everything is in ", " instead"});
+                {"history.csv: cannot be written (No space left on device)", "all results are in ", " instead"});
   EXPECT_FALSE(std::filesystem::exists(folder.results() / "history.csv"));
   EXPECT_NE(read(folder.results() / "summary.json").find("history.csv: cannot be written"), std::string::npos);
-  const auto                  begin     = answer.text.find("everything is in ") + 17;
+  const auto                  begin     = answer.text.find("all results are in ") + 19;
   const std::filesystem::path elsewhere = answer.text.substr(begin, answer.text.find(" instead") - begin);
   EXPECT_GT(read(elsewhere / "history.csv").size(), 1000u);
 }
@@ -51,7 +51,7 @@ TEST(FailedWrite, OfAnInterruptedRunTellsWhetherItCanGoOn)
       " --set run.end=90 --set run.step=2e-6 --set output.step=0.01 --checkpoint 0.05" + folder.option();
   expect_answer(shell(full_disk(cases, folder.results() / "history.csv") + run), 3,
                 {"history.csv: cannot be written", "the run was interrupted; gestell run ", "--set run.end=90",
-                 "--resume -o ", "goes on from its last checkpoint"});
+                 "--resume -o ", "continues from its last checkpoint"});
 }
 
 } // namespace

@@ -46,14 +46,14 @@ TEST(Fmu, SaysWhatIsWrong)
   says(one.step(0., 1e-3), "is not for an FMU before its initialisation");
   says(one.set("F_P", 1.), "'F_P' is an output");
   says(one.set("c_P", std::nan("")), "needs a finite number");
-  says(one.get_reference(9999), "there is no variable with the value reference 9999; they go from 0 to");
+  says(one.get_reference(9999), "there is no variable with the value reference 9999; valid: 0 to");
   EXPECT_EQ(one.set("l", 0.05), fmi2OK); // a rod shorter than its crank
   says(one.start(), "element.rod");
   EXPECT_EQ(one.reset(), fmi2OK);
   ASSERT_EQ(one.start(), fmi2OK) << one.last_message();
   EXPECT_EQ(one.step(0., 1e-3), fmi2OK);
   says(one.step(0., 1e-3), "the step begins at 0 s, but the machine is at 0.001 s");
-  says(one.step(1e-3, -1e-3), "needs a length above zero");
+  says(one.step(1e-3, -1e-3), "its length must be above zero");
   says(one.set("c_P", 1e9), "'c_P' is fixed once the machine has started");
   fmi2FMUstate none = nullptr;
   says(one.from_bytes("gestell", none), "not a state of an FMU");
@@ -75,13 +75,13 @@ TEST(Fmu, RefusesDamagedResources)
   };
   refused(FmuInstance(fmu, "one", "{other}"), "they are of different FMUs");
   refused(FmuInstance(fmu, "one", "", "file:///nowhere"), "there is no scene.toml in /nowhere");
-  refused(FmuInstance(fmu, "one", "", "https://example.org/x"), "can be read from file:// only");
+  refused(FmuInstance(fmu, "one", "", "https://example.org/x"), "only file:// can be read");
   const std::string text = read(resource / "scene.toml");
   std::ofstream(resource / "scene.toml") << text.substr(0, text.size() / 2);
   refused(FmuInstance(fmu), "scene.toml");
   std::ofstream(resource / "scene.toml") << text;
   std::ofstream(resource / "fmu.toml") << "guid = 1\n";
-  refused(FmuInstance(fmu), "it is not as gestell export wrote it");
+  refused(FmuInstance(fmu), "it was changed after gestell export");
 }
 
 TEST(FmuExport, RefusesOddInputWithTheWayOut)
@@ -96,11 +96,11 @@ TEST(FmuExport, RefusesOddInputWithTheWayOut)
   refused(scene("press_minimal.toml") + " --inputs frame.crwn.uz", {"frame.crwn", "crown"});
   refused(scene("press_minimal.toml") + " --inputs F_P=slide", {"scene.toml: 'F_P' is an input and a signal"});
   refused(scene("press_minimal.toml") + " --set start.rule='periodic'",
-          {"an FMU does not search for periodic motions"});
+          {"an FMU does not search for periodic solutions"});
   refused(scene("press_minimal.toml") + " --set 'element.rod.length=60 mm'", {"element.rod"});
-  refused(scene("press_minimal.toml") + " --inputs frame.crown.rx", {"acts on a motion that the machine has not"});
+  refused(scene("press_minimal.toml") + " --inputs frame.crown.rx", {"acts on a DOF that the machine does not have"});
   refused(scene("press_minimal.toml") + " --inputs F=slide,F=crank", {"there is an input 'F' already"});
-  refused(scene("press_minimal.toml") + " -o somewhere", {"give one of both"});
+  refused(scene("press_minimal.toml") + " -o somewhere", {"use one of the two options"});
   const std::string file = folder.file("file", "");
   expect_answer(
       gestell("export " + scene("press_minimal.toml") + " --fmu " + file.substr(0, file.size() - 1) + "/x.fmu'"), 2,

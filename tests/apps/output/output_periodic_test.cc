@@ -83,12 +83,12 @@ TEST(PeriodicHeadline, TellsTheLargestValueAndWhereMotionsAreStable)
     result.entries.push_back(entry);
   }
   const Headline headline = headline_of(result);
-  EXPECT_EQ(headline.sentence, "6 periodic motions with parameters.n from 200 to 500 1/min: 5 stable, 1 unstable.");
+  EXPECT_EQ(headline.sentence, "6 periodic solutions with parameters.n from 200 to 500 1/min: 5 stable, 1 unstable.");
   ASSERT_EQ(headline.numbers.size(), 2u) << "of signals of one unit the first";
   EXPECT_EQ(headline.numbers[0].value, "200 to 300, 500, 450 to 500 1/min");
   EXPECT_EQ(headline.numbers[1].value, "-5 kN");
-  EXPECT_EQ(headline.numbers[1].meaning, "F, largest, at 200 1/min");
-  EXPECT_THAT(headline_of(PeriodicResult()).sentence, StartsWith("No periodic motion was found"));
+  EXPECT_EQ(headline.numbers[1].meaning, "largest F, at 200 1/min");
+  EXPECT_THAT(headline_of(PeriodicResult()).sentence, StartsWith("No periodic solution was found"));
 }
 
 TEST(FrfHeadline, IsTheHighestPeakOfEachPair)

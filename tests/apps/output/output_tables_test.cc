@@ -229,7 +229,7 @@ TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndTellsWhatIsMissing)
       }
       catch (const coupling::WriteFailure &failure)
       {
-        reported = std::string(failure.what()).find("what could be written is in " + cut.string()) != std::string::npos;
+        reported = std::string(failure.what()).find("all other results are in " + cut.string()) != std::string::npos;
       }
       _exit(reported ? 0 : 1);
     }
@@ -275,8 +275,8 @@ TEST(StoryTable, SaysWhatIsNotKnown)
   EXPECT_TRUE(reported["modes"][0]["energy"].is_null());
   EXPECT_TRUE(reported["modes"][0]["mode"].is_null());
   load.modes.clear();
-  load.unknown = "the run kept no state near its fall";
-  EXPECT_NE(story_text(story).find("no modes: the run kept no state"), std::string::npos);
+  load.unknown = "the run stored no state near its fall";
+  EXPECT_NE(story_text(story).find("no modes: the run stored no state"), std::string::npos);
   EXPECT_EQ(story_text(story).find("energy [J]"), std::string::npos); // no head of a table without rows
   result.story = story;
   reported     = Json::parse(summary_json(result))["story"]["loads"][0];
@@ -294,7 +294,7 @@ TEST(ChangeText, IsThatOfTheMagnitude)
 
 TEST(ChangeText, IsNoPercentageWhereNoneTells)
 {
-  EXPECT_EQ(change_text(-100., 90.), "of the other sign");
+  EXPECT_EQ(change_text(-100., 90.), "opposite sign");
   EXPECT_EQ(change_text(3., 3. * (1. + 1e-12)), "the same");
   EXPECT_EQ(change_text(0., 0.), "the same");
   EXPECT_EQ(change_text(0., 5.), "");

@@ -80,7 +80,7 @@ TEST_F(OwnFiles, AreNotReachedThroughLinks)
   fs::create_directories(folder / "results");
   fs::create_directory_symlink(folder / "elsewhere", folder / "results/charts");
   fs::create_symlink(folder / "elsewhere/history.csv", folder / "results/history.csv");
-  put("results/.gestell-files", "# Files that gestell wrote here: it replaces and removes no others.\n"
+  put("results/.gestell-files", "# Files that gestell wrote here: it replaces and removes no other files.\n"
                                 "charts/1.svg\nhistory.csv\n");
   OwnFolder own(folder / "results");
   remove_all(folder / "results");
@@ -97,7 +97,7 @@ TEST_F(OwnFiles, OfAForgedListStayInsideTheFolder)
   put("results/here.txt");
   const std::string absolute = (folder / "outside.txt").string();
   put("results/.gestell-files",
-      "# Files that gestell wrote here: it replaces and removes no others.\n../outside.txt\n" + absolute +
+      "# Files that gestell wrote here: it replaces and removes no other files.\n../outside.txt\n" + absolute +
           "\n./here.txt\nx/../here.txt\n");
   remove_all(folder / "results");
   EXPECT_TRUE(fs::exists(folder / "outside.txt"));
@@ -132,7 +132,7 @@ TEST_F(OwnFiles, ThatAUserPutInThePlaceOfOursRefuseTheCommandWithTheWayOut)
   put("orbit_2.csv");
   EXPECT_NE(refused({"orbit_*.csv"}).find("orbit_2.csv"), std::string::npos);
   put("charts");
-  EXPECT_NE(refused({"charts/"}).find("charts is no folder"), std::string::npos);
+  EXPECT_NE(refused({"charts/"}).find("charts is not a folder"), std::string::npos);
 }
 
 TEST_F(OwnFiles, ThatTheCommandReadsAreNotReplaced)
@@ -140,8 +140,8 @@ TEST_F(OwnFiles, ThatTheCommandReadsAreNotReplaced)
   OwnFolder(folder / "").write("history.csv", "t [s]\n");
   fs::create_symlink(folder / "history.csv", folder / "link.csv");
   EXPECT_EQ(refused({"history.csv"}), "");
-  EXPECT_NE(refused({"history.csv"}, {folder / "history.csv"}).find("is read by this command"), std::string::npos);
-  EXPECT_NE(refused({"history.csv"}, {folder / "link.csv"}).find("is read by this command"), std::string::npos);
+  EXPECT_NE(refused({"history.csv"}, {folder / "history.csv"}).find("is an input of this command"), std::string::npos);
+  EXPECT_NE(refused({"history.csv"}, {folder / "link.csv"}).find("is an input of this command"), std::string::npos);
   EXPECT_EQ(refused({"chart.csv"}, {folder / "history.csv"}), "");
 }
 
@@ -210,7 +210,7 @@ TEST_F(OwnFiles, ThatCannotBeWrittenAreAllElsewhere)
   EXPECT_FALSE(fs::exists(folder / "results/a.vtp"));
   EXPECT_EQ(read(folder / "results/b.vtp"), "of the user");
   EXPECT_EQ(read(folder / "results/summary.json"), "{}\n");
-  const auto begin = message.find("everything is in ") + 17, end = message.find(" instead");
+  const auto begin = message.find("all results are in ") + 19, end = message.find(" instead");
   ASSERT_LT(begin, end) << message;
   const fs::path elsewhere = message.substr(begin, end - begin);
   for (const char *name : {"history.csv", "a.vtp", "b.vtp", "summary.json"})

@@ -53,7 +53,7 @@ class Tree(unittest.TestCase):
                             ("bash-completion/completions/gestell", "complete -F")):
             self.assertIn(words, (self.prefix / "share" / name).read_text(encoding="utf-8"))
         self.call(self.prefix / "bin/gestell", "new", "press")
-        self.assertIn("is well formed", self.call(self.prefix / "bin/gestell", "check", "press.toml"))
+        self.assertIn("is valid", self.call(self.prefix / "bin/gestell", "check", "press.toml"))
 
     def verifies_itself(self):
         """Cases and tables of reference lie beside the program."""

@@ -173,7 +173,7 @@ class Errors(unittest.TestCase):
     def test_speak_of_arguments(self):
         with self.assertRaisesRegex(gestell.InputError, "needs its ends, from_ and to"):
             gestell.example("press_minimal").periodic(along="parameters.c_P")
-        with self.assertRaisesRegex(gestell.SceneError, "no frame of one piece"):
+        with self.assertRaisesRegex(gestell.SceneError, "no single frame"):
             oscillator().full_frame()
         with self.assertRaisesRegex(gestell.InputError, "^along: there is no coordinate"):
             gestell.example("press_minimal").modes_along("cran")

@@ -209,7 +209,7 @@ TEST(TableForce, RefusesWhatMakesNoSense)
   const std::string scene = with(sliding_body, "end = ", "step = \"1 ms\"\nend = ") + pulse;
   EXPECT_EQ(complaint(scene), "");
   expect_complaint(with(scene, "\"30 ms\"", "\"5 ms\""),
-                   "row 3, abscissa = 0.005, but it must be 0.01 of the row before, or above it");
+                   "row 3, abscissa = 0.005, but it must be 0.01 of the previous row, or above it");
   expect_complaint(with(scene, "[\"30 ms\", \"100 N\"]", "[\"10 ms\", 0], [\"10 ms\", 0]"),
                    "row 4, abscissa = 0.01, but it must be above that of the two rows before");
   expect_complaint(with(scene, "\"30 ms\"", "\"30 mm\""), "needs a time");

@@ -209,7 +209,7 @@ TEST(Profiles, RefuseWhatMakesNoSense)
   expect_complaint(scene("[{ at = \"1 s\", to = \"5 N\" }]"), "needs a torque");
   expect_complaint(scene("[{ at = \"1 s\", to = 5, rate = 0 }]"), "above zero");
   expect_complaint(scene("[{ at = \"1 s\", to = 5, rate = 1 }, { at = \"2 s\", to = 0 }]"),
-                   "ramp 2, begin [s] = 2, but it must be 6 s, where the ramp before ends");
+                   "ramp 2, begin [s] = 2, but it must be 6 s (end of the previous ramp)");
   expect_complaint(scene("[{ at = \"1 s\", to = 5, slope = 1 }]"), "slope");
 }
 
@@ -225,7 +225,7 @@ TEST(Inputs, StayAtTheInitialLevelOfARun)
   expect_complaint(scene + push("{ input = 'M' }") + stop, "hold");
   expect_complaint(scene + push("{ input = 'a<b' }"), "an input needs a name");
   expect_complaint(scene + push("{ input = 'M', period = '1 s' }"), "leave out 'period' or 'input'");
-  expect_complaint(scene + push("{ input = 'M' }") + "waits = true\n", "is of no meaning for an input");
+  expect_complaint(scene + push("{ input = 'M' }") + "waits = true\n", "has no effect on an input");
 }
 
 // --- brake and clutch

@@ -146,7 +146,7 @@ TEST(FormulaText, OfEverySizeIsReadOrRefused)
     deep = "u + (" + deep + ")";
   const double x[] = {0., 2., 0.};
   EXPECT_EQ(read(flat, kind::length).value(x), 402.);
-  EXPECT_NE(complaint_about(deep, kind::length).find("fewer parentheses"), std::string::npos);
+  EXPECT_NE(complaint_about(deep, kind::length).find("nesting of parentheses"), std::string::npos);
 }
 
 // --- the element

@@ -100,21 +100,21 @@ TEST(SceneFrame, RepairIsADistanceAndADensityMayBeThatOfTheFile)
 TEST(Scene, OfNothingIsRefusedWhenItIsBuilt)
 {
   tests::expect_refusal([] { apps::build_machine(scene_of("name = \"x\"\n")); },
-                        "has nothing that moves; declare a [frame]");
+                        "has no moving part; declare a [frame]");
 }
 
 TEST(Scene, WithGravityInAnotherUnitIsWarnedOf)
 {
   const auto scene = scene_of(small_scene(), {"gravity=[0, 0, -9810]"});
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_NE(scene.warnings[0].find("1000 times that of the earth"), std::string::npos) << scene.warnings[0];
+  EXPECT_NE(scene.warnings[0].find("1000 times that of the Earth"), std::string::npos) << scene.warnings[0];
 }
 
 TEST(SceneFrame, MistakesAreReportedWithPlaceAndRemedy)
 {
   const std::vector<std::array<std::string, 4>> cases = {
       {"ratio = 0.02", "ratio = [0.01, 2]", "scene.toml:5: frame.damping.ratio", "leaves no vibration"},
-      {"ratio = 0.02", "ratio = [[\"20 Hz\", 0.01], [\"10 Hz\", 0.02]]", "frame.damping.ratio", "grow from row to row"},
+      {"ratio = 0.02", "ratio = [[\"20 Hz\", 0.01], [\"10 Hz\", 0.02]]", "frame.damping.ratio", "in ascending order"},
       {"\"steel\"", "{ E = 210, nu = 0.3, rho = 7850 }", "scene.toml:4: frame.material.E", "if 210 GPa was meant"},
       {"\"steel\"", "{ E = 210e3, nu = 0.3, rho = 7850 }", "scene.toml:4: frame.material.E", "if 210000 MPa was meant"},
       {"\"steel\"", "{ E = 210e9, nu = 0.3, rho = 7.85e-9 }", "scene.toml:4: frame.material.rho",
@@ -137,7 +137,7 @@ TEST(SceneFrame, MistakesAreReportedWithPlaceAndRemedy)
        "frame.interface.two", "'position'"},
       {"[frame.cut", "[frame.interface.two]\ncoupling = \"node\"\n[frame.cut", "frame.interface.two", "'position'"},
       {"[frame.cut", "[frame.interface.two]\nsurface = \"feet\"\nradius = 0.1\n[frame.cut",
-       "frame.interface.two.radius", "belongs to coupling"},
+       "frame.interface.two.radius", "applies to coupling"},
       {"\"frame.step\"", "\"frame.stp\"", "scene.toml:2: frame.cad", "there is no file"},
       {"\"frame.step\"", "\"scene.toml\"", "scene.toml:2: frame.cad", "'.step'"},
       {"\"steel\"", "\"steal\"", "scene.toml:4: frame.material", "did you mean 'steel'"},

@@ -20,11 +20,11 @@ TEST_F(ImportedFrame, TakesInterfacesByNumberPlaceOrName)
   refused(on_cards, {"position", "nearest is 11", "m away"}, "[frame.interface.top]\nposition = [0, 0.2, 0]\n");
   refused(on_cards, {"node 99 has no row"}, "[frame.interface.top]\nnode = 99\n");
   refused(on_cards, {"node 12 is at [1.2, 0.1, 0] m"}, "[frame.interface.top]\nnode = 12\nposition = [0, 0, 0]\n");
-  refused(on_cards, {"leave one of 'node' and 'rows' out"}, "[frame.interface.top]\nnode = 12\nrows = { ux = 1 }\n");
+  refused(on_cards, {"remove 'node' or 'rows'"}, "[frame.interface.top]\nnode = 12\nrows = { ux = 1 }\n");
   refused(on_cards, {"needs node ="}, "[frame.interface.top]\n");
   refused(on_cards, {"row 13 is a.ux already"}, "[frame.interface.a]\nnode = 12\n[frame.interface.b]\nnode = 12\n");
   refused(on_cards, {"has no interface", "node ="}, "");
-  refused("mass = [[1]]\nstiffness = [[1]]\n", {"tell the nodes of their rows"});
+  refused("mass = [[1]]\nstiffness = [[1]]\n", {"define the nodes of their rows"});
 }
 
 TEST_F(ImportedFrame, WithoutPlacesOfNodesIsTakenAtThePositionsGiven)
@@ -35,7 +35,7 @@ TEST_F(ImportedFrame, WithoutPlacesOfNodesIsTakenAtThePositionsGiven)
   EXPECT_EQ(scene.frame.matrices.interfaces[0].position[0], 1.2);
   EXPECT_TRUE(scene.frame.matrices.picture.points.empty());
   EXPECT_NEAR(scene.frame.matrices.mass, held.mass, 1e-8) << "translations need no places";
-  refused(on_cards, {"places of nodes are known"}, "[frame.interface.top]\nposition = [0, 0, 0]\n");
+  refused(on_cards, {"needs the positions of nodes"}, "[frame.interface.top]\nposition = [0, 0, 0]\n");
 }
 
 TEST_F(ImportedFrame, DampingIsThatOfTheFileWhereItIsAskedFor)
@@ -85,7 +85,7 @@ TEST_F(ImportedFrame, RefusesFilesThatDoNotBelongTogether)
   expect(scene.warnings.at(0), {"1 row of it are not in the stiffness", "node 99, ux"});
   expect(scene.frame.matrices.statements.at(0), {"mass: 1 row of the stiffness have none", "node 11, ux"});
   folder.write("nodes.csv", "node,x,y,z\n11,0,0,0\n12,1,0,0\n");
-  refused(both + "rows = 'a.dof'\nnodes = 'nodes.csv'\n", {"no place of node 7 and 1 more of 4"});
+  refused(both + "rows = 'a.dof'\nnodes = 'nodes.csv'\n", {"no position of node 7 and 1 more of 4"});
   folder.write("nodes.csv", "node,x,y,z,ux\n11,0,0,0,1\n");
   refused(both + "rows = 'a.dof'\nnodes = 'nodes.csv'\n", {"both 'node' and 'ux'"});
   folder.write("nodes.csv", "x,y,z\n0,0,0\n");

@@ -71,7 +71,7 @@ TEST(JointRules, WhatCannotBeFollowedIsRefused)
 {
   const std::string arm = planar_body("arm", "1", "1", "[0, 0, 0]");
   EXPECT_NE(complaint(arm + "[element.lump]\ntype = \"point mass\"\non = \"arm\"\nmass = 1\noffset = [1, 0, 0]\n")
-                .find("would turn with it"),
+                .find("would rotate with it"),
             std::string::npos);
   expect_refusal([&] { run(driven_slide + "[start]\nrule = \"steady\"\n" + settings); }, "do not work with joints");
 }
@@ -97,9 +97,9 @@ TEST(JointRules, AllEquationsThatFollowFromOthersAreNamed)
   const std::string said = complaint(four_bar("revolute") + settings + "signals = { }\n");
   EXPECT_NE(said.find("3 equations are redundant"), std::string::npos) << said;
   EXPECT_NE(said.find("follows from the equations of \""), std::string::npos) << said;
-  EXPECT_NE(said.find("a spherical joint in place of a revolute"), std::string::npos) << said;
+  EXPECT_NE(said.find("a spherical joint instead of a revolute"), std::string::npos) << said;
   std::size_t lines = 0;
-  for (std::size_t i = said.find("which holds"); i != std::string::npos; i = said.find("which holds", i + 1))
+  for (std::size_t i = said.find("which constrains"); i != std::string::npos; i = said.find("which constrains", i + 1))
     ++lines;
   EXPECT_EQ(lines, 3u) << said;
   const std::string less = complaint(four_bar("spherical") + settings + "signals = { }\n"); // two rotations less
@@ -118,7 +118,7 @@ TEST(JointRules, AFailureNearADeadPositionIsNamed)
               joint("pull", "prescribed motion", {{"on", "slide.displacement"}, {"motion", "{ speed = '1 m/s' }"}}) +
               settings + "signals = { x = \"slide.displacement\" }\n");
   EXPECT_LT(motion.signal("x").final, 0.4 - std::sqrt(0.08) + 1e-3);
-  EXPECT_NE(motion.result.failure.find("near a dead position"), std::string::npos) << motion.result.failure;
+  EXPECT_NE(motion.result.failure.find("near a dead-centre position"), std::string::npos) << motion.result.failure;
 }
 
 // kappa = J W^2/(c + W^2 m) = 0.5*2500/(10 000 + 2500) = 0.1 at 50 rad/s, 0.0012 at 5 rad/s.
@@ -159,7 +159,7 @@ TEST(JointRules, WhatACarrierWouldCarryRoundIsRefused)
   };
   EXPECT_NE(rotor("[0, 1, 0]", "[1, 0, 0]").find("\"arm\" rotates through large angles"), std::string::npos);
   EXPECT_NE(rotor("[0, 1, 0]", "[1, 0, 0]").find("revolute joint"), std::string::npos);
-  EXPECT_NE(rotor("[1, 0, 0]", "[0.5, 0, 0]").find("its axis would not follow"), std::string::npos);
+  EXPECT_NE(rotor("[1, 0, 0]", "[0.5, 0, 0]").find("its axis cannot follow"), std::string::npos);
   EXPECT_EQ(rotor("[0, 1, 0]", "[0.5, 0.2, 0]"), ""); // along its axis
   EXPECT_EQ(rotor("[0, 1, 0]", "[0, 0, 0]"), "");     // not given: on the carrier
   const std::string slider = arm + "[body.s]\ntype = \"slider\"\nmass = 3\nguide = \"arm\"\n";
@@ -178,7 +178,8 @@ TEST(JointRules, AMassFarFromItsInterfaceIsWarnedOf)
     return apps::carried_warnings(scene, apps::build_machine(scene).model());
   };
   ASSERT_EQ(warnings("ry", "[1, 0, 0]").size(), 1u);
-  EXPECT_NE(warnings("ry", "[1, 0, 0]")[0].find("1 m beside"), std::string::npos) << warnings("ry", "[1, 0, 0]")[0];
+  EXPECT_NE(warnings("ry", "[1, 0, 0]")[0].find("1 m from its own"), std::string::npos)
+      << warnings("ry", "[1, 0, 0]")[0];
   EXPECT_TRUE(warnings("uz", "[1, 0, 0]").empty()); // the interface does not turn
   EXPECT_TRUE(warnings("ry", "[0, 1, 0]").empty()); // beside it along the axis it turns about
 }

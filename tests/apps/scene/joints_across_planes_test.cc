@@ -113,15 +113,15 @@ TEST(JointsAcrossPlanes, AGapThatNoBodyCanCloseIsToldWithItsSize)
     {
       const std::string said = test::complaint(pair_of(a, b, type, at_a[1] + 0.02));
       EXPECT_NE(said.find("joint.j: stays open by 0.02 m along [0, 1, 0]"), std::string::npos) << type << ": " << said;
-      EXPECT_NE(said.find("give 'at' alone"), std::string::npos) << said;
+      EXPECT_NE(said.find("give only 'at'"), std::string::npos) << said;
     }
 }
 
 // A pin has one axis: that of the one body is not that of the other.
 TEST(JointsAcrossPlanes, ARevoluteJointOfTwoAxesIsRefused)
 {
-  expect_complaint(pair_of(kinds[1], kinds[7], "revolute", at_a[1]), "axes that lie 90 deg apart");
-  expect_complaint(pair_of(kinds[6], kinds[8], "revolute", at_a[1]), "\"spherical\" where they only meet in a point");
+  expect_complaint(pair_of(kinds[1], kinds[7], "revolute", at_a[1]), "axes that are 90 deg apart");
+  expect_complaint(pair_of(kinds[6], kinds[8], "revolute", at_a[1]), "\"spherical\" if they only share a point");
 }
 
 TEST(JointsAcrossPlanes, AScrewAskewToItsShaftIsRefused)
@@ -149,7 +149,7 @@ TEST(JointsAcrossPlanes, ADirectionThatIsIdleAsDescribedIsHeld)
   const std::string crank = rotor_body("crank", "0.1", "[0, 1, 0]") + slider_body("slide", "1", "[1, 0, 0]") +
                             revolute("pin", "crank", "slide", "[0, 0, 0.1]");
   expect_complaint(crank + start("v = { crank = 1 }") + short_run + "signals = { x = \"slide.displacement\" }\n",
-                   "holds nothing that could move");
+                   "constrains nothing that could move");
 }
 
 /// Along its normal a body in a plane cannot slide, so that both directions of the plane are held.

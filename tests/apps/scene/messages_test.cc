@@ -38,8 +38,7 @@ TEST(Messages, PlainFactorsOfASumFit)
   EXPECT_NEAR(run(sum("[{ of = \"w\", factor = -0.5 }, { of = \"a\" }]")).signal("s").final, 2., 1e-12);
   EXPECT_EQ(run(sum("[{ of = \"w\", factor = -0.5 }, { of = \"a\" }]")).signal("s").unit, "m");
   EXPECT_NEAR(run(sum("[{ of = \"a\", factor = 2 }, { of = \"b\", factor = -1 }]")).signal("s").final, 1., 1e-12);
-  expect_complaint(sum("[{ of = \"a\", factor = 2 }, { of = \"w\", factor = -1 }]"),
-                   "give one of the factors its unit");
+  expect_complaint(sum("[{ of = \"a\", factor = 2 }, { of = \"w\", factor = -1 }]"), "give one factor a unit");
   expect_complaint(sum("[{ of = \"a\" }, { of = \"w\", factor = \"2 kg\" }]"), "all terms must be lengths");
 }
 
@@ -101,18 +100,19 @@ TEST(Messages, SaysWhatALineThatIsNoTomlShouldBe)
   expect("a = [0, 0, -9.81 m/s^2]", "put a value with a unit, and an expression, in quotes: \"-9.81 m/s^2\"");
   expect("k = 20°", "put a value with a unit, and an expression, in quotes: \"20°\"");
   expect("k = 2*crank - 8 mm # twice", "put a value with a unit, and an expression, in quotes: \"2*crank - 8 mm\"");
-  expect("x = 1,5", "decimals have a point: 1.5");
-  expect("x = 1,5 mm", "decimals have a point: \"1.5 mm\"");
-  expect("x = 1,5e-3", "decimals have a point: 1.5e-3");
+  expect("x = 1,5", "write a decimal point: 1.5");
+  expect("x = 1,5 mm", "write a decimal point: \"1.5 mm\"");
+  expect("x = 1,5e-3", "write a decimal point: 1.5e-3");
   expect("x = .5", "a number has digits on both sides of its point");
   expect("method = bdf", "a string needs quotes: \"bdf\"");
   expect("on = True", "write true or false");
   expect("method = “abc”", "quotes are \" or ', not “");
-  expect("k : 3", "a key and its value have = between them");
+  expect("k : 3", "a key and its value are separated by =");
   expect("k = ", "a value is missing");
-  expect("[element.crank pin]", "a name with more than letters, digits, _ and - needs quotes: [element.\"crank pin\"]");
-  expect("crank pin = 3", "a key with more than letters, digits, _ and - needs quotes: \"crank pin\"");
-  expect("k = \"abc", "a quote is opened here and not closed");
+  expect("[element.crank pin]",
+         "a name with characters other than letters, digits, _ and - needs quotes: [element.\"crank pin\"]");
+  expect("crank pin = 3", "a key with characters other than letters, digits, _ and - needs quotes: \"crank pin\"");
+  expect("k = \"abc", "a quote opened here is not closed");
 }
 
 TEST(Messages, NamesWhatIsDefinedTwice)
@@ -122,9 +122,9 @@ TEST(Messages, NamesWhatIsDefinedTwice)
   expect("[element.\"crank pin\"]\nk = 1\n[element.\"crank pin\"]\nk = 2\n", 3,
          "[element.\"crank pin\"] is defined twice in the file");
   expect("[element.'rod']\nk = 1\n[element.'rod']\n", 3, "[element.'rod'] is defined twice in the file");
-  expect("[a.b]\nk = 1\n[[a.b]]\n", 3, "[a.b] is one table above");
+  expect("[a.b]\nk = 1\n[[a.b]]\n", 3, "[a.b] is a single table above");
   expect("[body]\n\"x y\" = 1\n\"x y\" = 2\n", 3, "the key '\"x y\"' is defined twice in this table");
-  expect("frame = \"a\"\n[frame.mesh]\nsize = 1\n", 2, "frame.mesh: the same name stands above for another value");
+  expect("frame = \"a\"\n[frame.mesh]\nsize = 1\n", 2, "frame.mesh: the same name is used above for another value");
   expect("[body.slide]\nmass = 1\n[body]\nslide = 3\n", 4, "'slide' is already a table above");
   expect("a = [1, 2", 1, "the file ends inside an array");
 }
@@ -167,8 +167,8 @@ TEST(Messages, AShareAboveOneIsPercent)
 {
   const std::string motor = "[element.m]\ntype = \"asynchronous motor\"\non = \"shaft\"\nbreakdown_torque = 1\n"
                             "synchronous_speed = \"1500/min\"\nbreakdown_slip = ";
-  expect_complaint(rotor(1., "1 s") + motor + "15\n", "breakdown_slip: needs a share of at most 1, got 15; percent are "
-                                                      "written \"15 %\"");
+  expect_complaint(rotor(1., "1 s") + motor + "15\n",
+                   "breakdown_slip: needs a value of at most 1, got 15; write percent as \"15 %\"");
   EXPECT_EQ(complaint(rotor(1., "1 s") + motor + "\"15 %\"\n"), "");
 }
 

@@ -110,16 +110,16 @@ TEST(PartsScene, RefusesWhatDoesNotFit)
       {middle + "[frame.joint.outer]\ntype = 'tie rod'\nbetween = ['arm.end', 'tip.rear']\n", "diameter"},
       {middle + outer + "[frame.part.more]\nsame_as = 'arms'\n", "there is no part 'arms' with geometry of its own"},
       {middle + outer + "[frame.part.more]\nsame_as = 'arm'\nmaterial = 'steel'\n", "is that of 'arm' already"},
-      {middle + outer + "[output.stress]\n", "stresses of a frame of parts are not computed"},
+      {middle + outer + "[output.stress]\n", "stresses of a frame of parts are not available"},
       {middle + outer + "[reduction]\nmethod = 'none'\n", "parts are joined after their reduction"},
-      {middle + outer + "[reduction]\ninside = 'free-interface'\n", "does not keep what joins them"}};
+      {middle + outer + "[reduction]\ninside = 'free-interface'\n", "does not retain the joined interfaces"}};
   for (const auto &[joints, words] : refused)
     EXPECT_THAT(said(bars(joints)), HasSubstr(words)) << joints;
   EXPECT_THAT(said(bars(middle + outer, "", "cad = 'bar.geo'\n")), HasSubstr("needs exactly one of"));
   EXPECT_THAT(
       said(bars(middle + outer, "",
                 "damping = { rayleigh = [{ frequency = 20, ratio = 0.01 }, { frequency = 90, ratio = 0.02 }] }\n")),
-      HasSubstr("give it to the parts"));
+      HasSubstr("set it for the parts"));
 }
 
 } // namespace

@@ -237,7 +237,7 @@ TEST(Places, WhatCannotActIsRefused)
                    "there is no body 'top'");
   expect_complaint(load("type = \"dry friction\"\nfrom = \"tip\"\ndirection = [0, 0, 1]\nkinetic_force = 1\n"
                         "static_force = 1\n"),
-                   "cannot follow places");
+                   "cannot follow points");
   expect_complaint(load("type = \"force\"\nfrom = \"tip\"\ncarried_by = \"plate\"\nconstant = 1\n"),
                    "needs a direction");
   expect_complaint(load("type = \"force\"\nfrom = \"tip\"\ndirection = [1, 0, 0]\ncarried_by = \"ground\"\nconstant = "
@@ -252,7 +252,7 @@ TEST(Places, WhatCannotActIsRefused)
   expect_complaint(point + "[element.e]\ntype = \"asynchronous motor\"\non = \"bob\"\n", "'bob' is no rotor");
   expect_complaint(plate + point +
                        "[measure.m]\ntype = \"along\"\nfrom = \"tip\"\ndirection = [0, 0, 1]\ncarried_by = \"bob\"\n",
-                   "can turn with `from` or `to` only");
+                   "can rotate with `from` or `to` only");
 }
 
 } // namespace

@@ -156,7 +156,7 @@ TEST(Quantity, NonsenseIsRefusedWithTheReason)
                                           {"max(1)", "arguments"},
                                           {"1/0", "zero"},
                                           {"sqrt(-1)", "negative"},
-                                          {"10^-3 mm", "behind its exponent; write 1e-3 mm"},
+                                          {"10^-3 mm", "after its exponent; write 1e-3 mm"},
                                           {"2 $ 3", "'$'"},
                                           {"1e999", "range"},
                                           {"10^400", "finite"},
@@ -186,7 +186,7 @@ TEST(Quantity, AWrongDimensionSaysWhatIsNeededAndWhatCame)
   EXPECT_EQ(quantity_complaint("3 kg", kind::length), "needs a length such as \"40 mm\", got \"3 kg\", 3 kg");
   EXPECT_EQ(
       quantity_complaint("3", kind::length),
-      "needs a length such as \"40 mm\", got \"3\" without a unit; a plain number in SI units stands without quotes");
+      "needs a length such as \"40 mm\", got \"3\" without a unit; write a plain number in SI units without quotes");
   EXPECT_EQ(quantity_complaint("0", kind::length), ""); // zero of anything is zero
   expect_words(quantity_complaint("3 mm", kind::angular_speed), "an angular speed");
 }
@@ -228,9 +228,9 @@ TEST(Quantity, WhatCouldCountTurnsOrRadiansIsRefused)
         "3/min + 2 1/s", "sin((2 s)*1500/min)", "3/r/min", "(3 rpm)*(2 rpm)", "2 rad * 3 rpm"})
     EXPECT_NE(quantity_complaint(text), "") << text;
   for (const std::string text : {"2*pi*1500/min", "pi/30*1500/min", "1500/(2 min)", "2 s * 1500/(1 s min)"})
-    EXPECT_NE(quantity_complaint(text, kind::angular_speed).find("may count turns"), std::string::npos) << text;
-  expect_words(quantity_complaint("(3 s)*1500/min", kind::angle), "may count turns");
-  expect_words(quantity_complaint("3 N m/min^-1", kind::torsional_damping), "may count turns");
+    EXPECT_NE(quantity_complaint(text, kind::angular_speed).find("may count revolutions"), std::string::npos) << text;
+  expect_words(quantity_complaint("(3 s)*1500/min", kind::angle), "may count revolutions");
+  expect_words(quantity_complaint("3 N m/min^-1", kind::torsional_damping), "may count revolutions");
   EXPECT_EQ(quantity_complaint("100 mm/min", kind::speed), "");
   EXPECT_EQ(quantity_complaint("2 rad/min", kind::angular_speed), "");
   EXPECT_EQ(quantity_complaint("1500/(2 min)", kind::frequency), ""); // turns or not
@@ -248,9 +248,10 @@ TEST(Quantity, TurnsOfAShaftTimesARatioOfLengthsAreTurns)
     EXPECT_NEAR(value_as(read(text), kind::angular_speed, text), 8. * pi, 1e-13) << text;
   EXPECT_NEAR(value_as(read("80 mm*(600 rpm)/(200 rpm)"), kind::length, ""), 0.24, 1e-15);
   EXPECT_NEAR(value_as(read("(600 rpm)*80 mm/(200 mm)"), kind::frequency, ""), 4., 1e-14);
-  expect_words(quantity_complaint("600 1/min*80 mm", kind::speed), "turns or radians could be meant");
-  expect_words(quantity_complaint("(600 rpm)*2 kg m^2", kind::torsional_damping), "turns or radians could be meant");
-  expect_words(quantity_complaint("(600 rpm)*pi*80 mm/(200 mm)", kind::angular_speed), "leave pi out");
+  expect_words(quantity_complaint("600 1/min*80 mm", kind::speed), "revolutions or radians could be meant");
+  expect_words(quantity_complaint("(600 rpm)*2 kg m^2", kind::torsional_damping),
+               "revolutions or radians could be meant");
+  expect_words(quantity_complaint("(600 rpm)*pi*80 mm/(200 mm)", kind::angular_speed), "remove pi");
 }
 
 TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsTold)

@@ -53,7 +53,7 @@ TEST(Starts, JointsThatSayTheSameTwiceAreFoundBeforeAStaticStart)
   expect_objection("gravity = [0, 0, -9.81]\n" + planar_body("bar", "1", "0.1", "[0.5, 0, 0]") +
                        revolute("left", "ground", "bar", "[0, 0, 0]") +
                        revolute("right", "ground", "bar", "[1, 0, 0]") + start("rule = 'static'") + settings,
-                   {"say the same twice", "\"right\" (fx)", "\"left\""});
+                   {"the joints are redundant", "\"right\" (fx)", "\"left\""});
 }
 
 // Friction at the lever h = 0.6 m makes the moment that causes it, k h = 2 mu/L h = 1.5 times.
@@ -65,7 +65,7 @@ TEST(Starts, AGuideThatJamsIsNamed)
                 {{"axis", "[1, 0, 0]"}, {"friction", "{ coefficient = 0.25, length = '0.2 m' }"}}) +
           element("moment", "force", {{"from", "carriage"}, {"about", "[0, 1, 0]"}, {"constant", "2 N m"}}) +
           start("v = { 'carriage.ux' = 1 }") + settings,
-      {"joint.rail: ", "the machine does not start", "the force of \"rail\"", "jams: lengthen the guide"});
+      {"joint.rail: ", "no initial state", "the force of \"rail\"", "jams: lengthen the guide"});
 }
 
 } // namespace

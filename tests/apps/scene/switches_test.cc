@@ -376,11 +376,11 @@ TEST(Switches, RefuseWhatElementsCannotObey)
   const std::string pin = point_body("bob", "1", "[0, 0, 0]") +
                           joint("pin", "spherical", "ground", "bob", "[0, 0, 0]", {{"stiffness", "1e6"}});
   expect_complaint(slider(2., "1 s") + pin + at_time("pin off"), "is a compliant joint");
-  expect_complaint(slider(2., "1 s") + feed + at_time("feed brake"), "no finite force makes masses jump");
+  expect_complaint(slider(2., "1 s") + feed + at_time("feed brake"), "needs an infinite force");
   const std::string braked = "[joint.feed]\ntype = \"prescribed motion\"\non = \"slide\"\n"
                              "motion = { speed = 1, brake = { family = \"linear\", duration = \"0.1 s\" } }\n";
   expect_complaint(slider(2., "1 s") + braked + at_time("feed brake", {{"jerk", "5"}}),
-                   "takes neither an acceleration nor a jerk");
+                   "allows neither an acceleration nor a jerk");
   expect_complaint(slider(2., "1 s") + braked + at_time("feed hold"),
                    "does not accept the command 'hold'; it accepts 'brake'");
   // A name that is missing is mistaken for nothing that could not obey: a joint is never off.

@@ -68,7 +68,7 @@ TEST(TurningNames, AreRefusedWhereTheyMeanNoAngle)
   const std::string spring = "[element.spring]\ntype = 'spring-damper'\nfrom = 'crank.angle'\nstiffness = '3 N/m'\n";
   expect_complaint(machine("planar") + quoted(spring + "direction = [1, 0, 0]\n"), "names an angle");
   expect_complaint(machine("planar") + quoted("[start]\nq = { crank = 1, 'crank.angle' = 2 }\n"),
-                   "has a value already");
+                   "already has a value");
   expect_complaint(machine("planar") + quoted("[start]\nq = { 'crank.displacement' = 1 }\n"),
                    "no coordinate 'crank.displacement'");
 }

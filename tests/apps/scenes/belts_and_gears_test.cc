@@ -416,7 +416,7 @@ TEST(RollingBearing, YieldsByItsTableInEveryDirection)
   const SceneRun straight = run(in_bearing("[['10 um', '2 kN']]", 0.4, 5000.));
   EXPECT_NEAR(straight.at(0, straight.column("e")), 2.5e-5, 1e-9 * 2.5e-5);
   expect_complaint(with(in_bearing(rows, 0., 1.), "10 um", "4 um"), "rows rise from zero");
-  expect_complaint(with(in_bearing(rows, 0., 1.), "9 kN", "3 kN"), "resists more the further it yields");
+  expect_complaint(with(in_bearing(rows, 0., 1.), "9 kN", "3 kN"), "must grow with the deflection");
 }
 
 TEST(BeltsAndGears, RefuseWhatDoesNotFit)
@@ -425,15 +425,15 @@ TEST(BeltsAndGears, RefuseWhatDoesNotFit)
   EXPECT_EQ(test::complaint(of_belt), "");
   EXPECT_EQ(test::complaint(of_gears), "");
   const std::string by_length = with(of_belt, "pretension = \"400 N\"", "length = \"1.5 m\"");
-  expect_complaint(by_length, "is 1.5 m long, but its way around both wheels at a centre distance of 0.5 m is 1.675");
+  expect_complaint(by_length, "is 1.5 m long, but its path around both wheels at a centre distance of 0.5 m is 1.675");
   expect_complaint(with(of_belt, "pretension = \"400 N\"", "pretension = \"-400 N\""), "of zero or more, got -");
   expect_complaint(with(of_belt, "pretension = \"400 N\"", ""),
-                   "'pretension', the pull of both strands at rest, or 'length'");
-  expect_complaint(with(of_belt, "radius_to = \"150 mm\"", "radius_to = \"450 mm\""), "do not fit beside each other");
+                   "'pretension', the tension of both strands at rest, or 'length'");
+  expect_complaint(with(of_belt, "radius_to = \"150 mm\"", "radius_to = \"450 mm\""), "m overlap");
   expect_complaint(with(of_belt, "stiffness = \"80 N/mm\"\n", ""), "'stiffness' of one strand or 'rigidity'");
-  expect_complaint(with(of_belt, "to = \"two\"", "to = \"one\""), "lies on 'one' like `from`");
+  expect_complaint(with(of_belt, "to = \"two\"", "to = \"one\""), "is on 'one', the body of `from`");
   expect_complaint(with(of_belt, "axis = [0, 1, 0]\nradius", "axis = [0, 0, 1]\nradius"), "is not that of 'one'");
-  expect_complaint(of_belt + "at_to = [0.5, 0.1, 0]\n", "lie in two planes across 'axis', 0.1 m apart");
+  expect_complaint(of_belt + "at_to = [0.5, 0.1, 0]\n", "are in two planes normal to 'axis', 0.1 m apart");
   expect_complaint(with(of_gears, "backlash = \"0.2 mm\"", "backlash = \"-0.2 mm\""), "of zero or more, got -0.2 mm");
   expect_complaint(with(of_gears, "radius_to = \"0.3 m\"", "radius_to = \"0.32 m\""),
                    "need a centre distance of 0.52 m, but their centres are 0.5 m apart");

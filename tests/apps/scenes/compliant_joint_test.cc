@@ -241,7 +241,7 @@ std::string loop(const Keys &yields)
 // rest closes as with ideal joints.
 TEST(CompliantJoint, ALoopThatIdealJointsHoldTooOftenRuns)
 {
-  expect_complaint(loop({}), "say the same twice");
+  expect_complaint(loop({}), "the joints are redundant");
   const auto motion = run(loop({{"stiffness", "20 kN/mm"},
                                 {"damping", "5 kN s/m"},
                                 {"rotational_stiffness", "1e5 N m/rad"},
@@ -274,17 +274,19 @@ TEST(CompliantJoint, AStepThatCannotStandItsStiffnessIsRefused)
 TEST(CompliantJoint, WhatMakesNoCompliantJointIsRefused)
 {
   const std::string k = "type = \"revolute\"\nstiffness = \"1 kN/mm\"\n";
-  expect_complaint(bar("planar", k + "rotational_stiffness = \"1 N m/rad\""), "holds no rotation of these bodies");
+  expect_complaint(bar("planar", k + "rotational_stiffness = \"1 N m/rad\""), "constrains no rotation of these bodies");
   expect_complaint(bar("rigid", k + "axis = [0, 1, 0]"), "needs 'rotational_stiffness'");
-  expect_complaint(bar("planar", k + "friction = { coefficient = 0.1, radius = \"20 mm\" }"), "that of an ideal joint");
-  expect_complaint(bar("planar", "type = \"revolute\"\ndamping = \"1 N s/m\""), "needs 'stiffness' beside 'damping'");
-  expect_complaint(bar("planar", "type = \"revolute\"\nstiffness = 0"), "hold nothing");
+  expect_complaint(bar("planar", k + "friction = { coefficient = 0.1, radius = \"20 mm\" }"),
+                   "is for ideal joints only");
+  expect_complaint(bar("planar", "type = \"revolute\"\ndamping = \"1 N s/m\""),
+                   "needs 'stiffness' in addition to 'damping'");
+  expect_complaint(bar("planar", "type = \"revolute\"\nstiffness = 0"), "constrain nothing");
   expect_complaint(bar("planar", "type = \"revolute\"\nstiffness = [1, -1, 1]"), "zero or more");
   expect_complaint(bar("planar", "type = \"revolute\"\nstiffness = \"-1 N/m\""), "stiffness");
   expect_complaint(bar("planar", "type = \"revolute\"\nstiffness = \"1 N m/rad\""), "needs a stiffness");
   expect_complaint(bar("planar", "type = \"prismatic\"\naxis = [1, 0, 1]\nstiffness = [1, 2, 3]\n"
                                  "rotational_stiffness = 1"),
-                   "along global axes");
+                   "refer to global axes");
   expect_complaint(bar("planar", k) + "[joint.rod]\ntype = \"distance\"\nfrom = \"ground\"\nto = \"bar\"\nat_from = "
                                       "[1, 0, 0]\nstiffness = 1\n",
                    "of type \"distance\"");

@@ -154,18 +154,18 @@ TEST(GearPair, OnAnArmFollowsItOverAnyNumberOfTurns)
 TEST(GearMesh, RefusesWhatMakesNoSense)
 {
   EXPECT_EQ(test::complaint(planetary), "");
-  expect_complaint(with(planetary, "ratio = \"-18/24\"", "ratio = 1"), "must be neither 0 nor 1");
+  expect_complaint(with(planetary, "ratio = \"-18/24\"", "ratio = 1"), "must not be 0 or 1");
   expect_complaint(with(planetary, "ratio = \"-18/24\"\n", ""), "the key 'ratio' is missing");
   expect_complaint(with(planetary, "pressure_angle = \"-20 deg\"", "pressure_angle = \"50 deg\""),
                    "between -45 and 45 degrees");
   expect_complaint(with(planetary, "to = \"planet\"\naxis = [0, 0, 1]", "to = \"planet\"\naxis = [0, 1, 0]"),
                    "is not that of 'sun'");
-  expect_complaint(with(planetary, "to = \"planet\"\naxis", "to = \"sun\"\naxis"), "lies on 'sun' like `from`");
+  expect_complaint(with(planetary, "to = \"planet\"\naxis", "to = \"sun\"\naxis"), "lies on 'sun' as `from`");
   expect_complaint(with(planetary, "from = \"sun\"\nto = \"planet\"", "from = \"sun\"\nto = \"arm\""), "one axis");
   const std::string planet = "type = \"planar\"\nnormal = [0, 0, 1]\nmass = \"4 kg\"\ninertia = \"0.03 kg m^2\"",
                     rigid  = "type = \"rigid\"\nmass = \"4 kg\"\ninertia = [0.03, 0.03, 0.03]";
   expect_complaint(with(with(planetary, planet, rigid), "\"revolute\"", "\"spherical\""),
-                   "whose turns are not counted");
+                   "whose revolutions are not counted");
 }
 
 } // namespace

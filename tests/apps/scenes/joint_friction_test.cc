@@ -80,7 +80,7 @@ TEST(GuideFriction, GrowsByTheMomentItMakes)
 TEST(GuideFriction, ThatJamsIsTold)
 {
   const SceneRun motion = stopped(lever("0.6 m"), {"start.v={ \"carriage.ux\" = 1 }", "run.end=0.1 s"}); // k h = 1.5
-  for (const char *words : {"the machine does not start", "the force of \"guide\"", "so that the joint jams"})
+  for (const char *words : {"no initial state", "the force of \"guide\"", "so that the joint jams"})
     EXPECT_NE(motion.result.failure.find(words), std::string::npos) << motion.result.failure;
   EXPECT_TRUE(motion.result.rows.empty());
   EXPECT_TRUE(std::isnan(motion.signal("v").final));

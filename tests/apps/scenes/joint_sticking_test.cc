@@ -283,7 +283,7 @@ TEST(StickingJoints, RefuseWhatMakesNoSense)
   expect_complaint(with(sticking_incline, "static = 0.5", "static = 0.2"), "is below 'coefficient'");
   expect_complaint(with(sticking_incline, "law = \"dry\"", "law = \"drier\""), "dry");
   expect_complaint(with(sticking_incline, "static = 0.5", "speed = \"1 mm/s\""), "speed");
-  expect_complaint(with(sticking_incline, "type = \"prismatic\"", "type = \"in-plane\""), "leave it out");
+  expect_complaint(with(sticking_incline, "type = \"prismatic\"", "type = \"in-plane\""), "remove it");
   expect_complaint(with(sticking_incline, "law = \"dry\"", "law = \"lugre\""), "bristle_stiffness");
   expect_complaint(with(sticking_incline, "law = \"dry\"", "law = \"lugre\", bristle_stiffness = \"1 1/mm\""),
                    "needs 'stribeck_speed'");

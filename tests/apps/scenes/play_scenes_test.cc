@@ -91,7 +91,7 @@ TEST(PointOnPlane, AFailureOfAControlledStepNamesTheSpeedOfFriction)
   steep             = with(steep, "q = { \"block.ux\" = \"-d*sin(a)\", \"block.uz\" = \"-d*cos(a)\" }\n", "");
   steep             = with(steep, "\"1 m/s * cos(a)\", \"block.uz\" = \"-1 m/s * sin(a)\"", "-0.5, \"block.uz\" = 0.3");
   const SceneRun motion = stopped(with(steep, "step = \"0.2 ms\"", "tolerance = 1e-6"));
-  EXPECT_NE(motion.result.failure.find("give its friction a larger 'speed'"), std::string::npos)
+  EXPECT_NE(motion.result.failure.find("increase the 'speed' of its friction"), std::string::npos)
       << motion.result.failure;
 }
 
@@ -301,7 +301,7 @@ TEST(PlayScenes, RefuseWhatMakesNoSense)
   EXPECT_EQ(complaint(ball), "");
   EXPECT_EQ(complaint(guide), "");
   expect_complaint(with(ball, "restitution", "at_from = [0, 0, 0]\nrestitution"), "the point of `from` is `at`");
-  expect_complaint(with(disc, "to = \"disc\"", "to = \"ground\""), "lies on 'ground' like `from`");
+  expect_complaint(with(disc, "to = \"disc\"", "to = \"ground\""), "lies on 'ground' as `from`");
   expect_complaint(with(disc, "clearance = \"0.5 mm\"", "clearance = 0"), "element.bearing.clearance");
   expect_complaint(with(disc, "radius = \"30 mm\"\n", ""), "needs 'radius' of the journal");
   expect_complaint(with(disc, "at = [0, 0, 0]\n", ""), "needs 'at', the centre of the bearing");
@@ -312,9 +312,8 @@ TEST(PlayScenes, RefuseWhatMakesNoSense)
                    "is below 'coefficient'");
   expect_complaint(with(disc, "dissipation", "restitution = 0.5\ndissipation"),
                    "needs 'restitution' and 'impact_speed' together");
-  expect_complaint(with(ball, "from = \"ball\"", "from = \"ball\"\nto = \"ball\""), "a contact is one of two bodies");
-  expect_complaint(with(guide, "normal = [0, 0, 1]\nlength", "normal = [1, 0, 1]\nlength"),
-                   "at right angles to 'axis'");
+  expect_complaint(with(ball, "from = \"ball\"", "from = \"ball\"\nto = \"ball\""), "a contact needs two bodies");
+  expect_complaint(with(guide, "normal = [0, 0, 1]\nlength", "normal = [1, 0, 1]\nlength"), "perpendicular to 'axis'");
 }
 
 } // namespace

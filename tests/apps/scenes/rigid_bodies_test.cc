@@ -308,7 +308,7 @@ TEST(RigidBody, ALossOfSpinIsWarnedOfWithItsRemedy)
                           start("v = { 'top.wz' = '100 rad/s' }") + steps("1 ms", "0.5 s") + signals("w = 'top.wz'");
   const auto second = run(top), fourth = run(top, {"run.order=4"});
   ASSERT_FALSE(second.result.findings.empty());
-  EXPECT_NE(second.result.findings.back().text.find("order = 4 with 60 steps or more per turn"), std::string::npos)
+  EXPECT_NE(second.result.findings.back().text.find("order = 4 with at least 60 steps per period"), std::string::npos)
       << second.result.findings.back().text;
   EXPECT_LT(std::abs(100. - fourth.signal("w").final), 0.1 * (100. - second.signal("w").final));
 }

@@ -112,7 +112,7 @@ TEST(StartWithPlay, TheFirstPeakIsNotLargerThanThoseOfLaterRevolutions)
       const std::size_t n      = motion.n_rows();
       EXPECT_LE(largest(motion, "F", 0, n / 8), 1.2 * largest(motion, "F", n / 8, n)) << angle;
       EXPECT_THAT(coupling::texts_of(motion.result.findings),
-                  ::testing::Not(::testing::Contains(HasSubstr("closes the play"))));
+                  ::testing::Not(::testing::Contains(HasSubstr("closes the clearance"))));
     }
 }
 
@@ -127,7 +127,7 @@ TEST(StartWithPlay, AGivenStartWarnsOfTheClosingSpeed)
   const SceneRun meant = run(scene + start("v = { crank = '150 rpm', ram = 0, 'rod.ux' = 0, 'rod.uz' = 0, "
                                            "'rod.angle' = 0 }"));
   EXPECT_THAT(coupling::texts_of(meant.result.findings),
-              ::testing::Not(::testing::Contains(HasSubstr("closes the play"))));
+              ::testing::Not(::testing::Contains(HasSubstr("closes the clearance"))));
 }
 
 // Claws between flywheel and shaft: the load of the shaft closes them on one side, and they carry its share T J_1/(J_1

@@ -50,7 +50,7 @@ TEST(StaticStart, WarnsOfVelocitiesThatHaveNoPartInIt)
                start("rule = 'static'\nv = { s = " + v + " }") + start_settings +
                "signals = { x = 's.displacement' }\n");
   };
-  EXPECT_TRUE(reported(moving("1"), "start.v has no part in rule = \"static\""));
+  EXPECT_TRUE(reported(moving("1"), "start.v is not used with rule = \"static\""));
   EXPECT_FALSE(reported(moving("0"), "start.v"));
 }
 

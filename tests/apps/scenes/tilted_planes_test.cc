@@ -34,7 +34,7 @@ TEST(TiltedPlane, RefusesWhatIsRefusedInOneAlongTheAxes)
                                             signals("x = 'slide.displacement'")};
   for (unsigned seed = 1; seed <= 20; ++seed)
     expect_refusal([&] { run_of(moved(locked.tree(), {random_rotation(seed)}).scene, "scene.toml"); },
-                   "holds nothing that could move");
+                   "constrains nothing that could move");
 }
 
 } // namespace

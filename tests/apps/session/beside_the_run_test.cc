@@ -36,7 +36,7 @@ TEST(BesideTheRun, ModesAreThoseOfTheStartWhereTheUndeformedMachineHasNone)
   const apps::Result result = run_of(root_law("10 mm"));
   EXPECT_EQ(result.run->failure, "");
   EXPECT_GT(result.run->signals[0].max, 0.012);
-  EXPECT_THAT(result.warnings, Contains(HasSubstr("the modes are those of the start")));
+  EXPECT_THAT(result.warnings, Contains(HasSubstr("the modes are those of the initial state")));
   ASSERT_EQ(result.coupled_modes.size(), 1u);
   // c = 100 N/m + d/du 1 N sqrt(u/mm) = 100 + 500/sqrt(10) N/m at 10 mm.
   EXPECT_NEAR(result.coupled_modes[0].frequency_hz, std::sqrt(100. + 500. / std::sqrt(10.)) / (2. * M_PI), 1e-4);

@@ -202,7 +202,7 @@ protected:
 TEST_F(CheckpointFile, GivesBackTheStateOfTheSameRunAlone)
 {
   const std::string state("a\0b\nc", 5);
-  EXPECT_THAT(message(key), HasSubstr("is not there"));
+  EXPECT_THAT(message(key), HasSubstr("does not exist"));
   apps::write_checkpoint(file, key, state);
   EXPECT_EQ(apps::read_checkpoint(file, key), state);
   EXPECT_THAT(message({{"the program", "12"}, {"the scene", "35"}}), HasSubstr("the scene has changed since"));

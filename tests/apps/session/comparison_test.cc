@@ -139,7 +139,8 @@ TEST(ComparedRun, OfMachinesWithoutACommonMotionHasNoModes)
   add_compared_run(session, result, other);
   EXPECT_TRUE(run_of(result));
   EXPECT_FALSE(shapes_of(result));
-  EXPECT_THAT(refusal([&] { add_compared_modes(session, result, other); }), ::testing::HasSubstr("share no motion"));
+  EXPECT_THAT(refusal([&] { add_compared_modes(session, result, other); }),
+              ::testing::HasSubstr("have no body, interface or element of the same name"));
 }
 
 } // namespace

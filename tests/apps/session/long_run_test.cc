@@ -105,7 +105,7 @@ TEST(LongRun, IsToldWhereItIsAskedFor)
   request.along = "parameters.x";
   request.from = request.to = "1";
   const std::string named   = test::quoted("gravity = [0, 0, 'x']\n[parameters]\nx = 1\n");
-  expect_refusal([&] { periodic_of(named + cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "one motion");
+  expect_refusal([&] { periodic_of(named + cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "one solution");
   request.along   = "";
   request.section = 10;
   expect_refusal([&] { periodic_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "at least 64");
@@ -185,9 +185,9 @@ TEST(BasinScene, AsksForAPlaneByTheNamesOfTheStart)
     return refusal([&] { periodic_of(scene, request); });
   };
   EXPECT_THAT(words("slid, slide'"), testing::HasSubstr("'slide'"));
-  EXPECT_THAT(words("slide"), testing::HasSubstr("two sides"));
+  EXPECT_THAT(words("slide"), testing::HasSubstr("two axes"));
   EXPECT_THAT(words("slide, slide"), testing::HasSubstr("the same"));
-  EXPECT_THAT(words("slide from 1 to -1, slide'"), testing::HasSubstr("larger value comes second"));
+  EXPECT_THAT(words("slide from 1 to -1, slide'"), testing::HasSubstr("empty range"));
   EXPECT_THAT(words("slide from 1, slide'"), testing::HasSubstr("from -1 to 1"));
 }
 

@@ -44,7 +44,7 @@ TEST(Magnitudes, NameValueRangeAndKeyInOneWarning)
   EXPECT_THAT(found[0],
               HasSubstr("element.rod.damping: with the stiffness and the masses gives a damping ratio of 78.35"));
   EXPECT_THAT(found[0], HasSubstr("; expected: at most 10"));
-  EXPECT_THAT(found[0], HasSubstr("; unexpected, too, perhaps by the same mistake: "));
+  EXPECT_THAT(found[0], HasSubstr("; also unexpected, perhaps for the same reason: "));
   EXPECT_THAT(found[0], HasSubstr("element.rod.stiffness"));
 }
 

@@ -128,17 +128,18 @@ TEST_F(Measured, WhatIsWrongIsToldWithItsPlace)
                     one  = "  3.0  4.0\n";
   EXPECT_THAT(complaint("x.txt", "1"), HasSubstr("needs a table (.csv) or a universal file"));
   EXPECT_THAT(complaint("x.csv", "f,re,im\n1,2,3\n"), HasSubstr("x.csv:1: needs a first column \"frequency [Hz]\""));
-  EXPECT_THAT(complaint("x.csv", "frequency [Hz],re\n1,2\n"), HasSubstr("of \"re\" and \"im\" one is missing"));
+  EXPECT_THAT(complaint("x.csv", "frequency [Hz],re\n1,2\n"), HasSubstr("column \"re\" or \"im\" is missing"));
   EXPECT_THAT(complaint("x.csv", "frequency [Hz],re,im\n2,1,1\n1,1,1\n"),
               HasSubstr("x.csv:3: frequencies must ascend"));
-  EXPECT_THAT(complaint("x.csv", "frequency [Hz],re [kg],im [kg]\n2,1,1\n"), HasSubstr("the unit [kg] is none of x/a"));
+  EXPECT_THAT(complaint("x.csv", "frequency [Hz],re [kg],im [kg]\n2,1,1\n"),
+              HasSubstr("the unit [kg] does not match x/a"));
   EXPECT_THAT(complaint("x.csv", "frequency [Hz],re,im\n2,1,one\n"), HasSubstr("got 'one'"));
   EXPECT_THAT(complaint("x.csv", "frequency [Hz],re,im\n2,1,1\n", "z/a"), HasSubstr("there is no pair \"z/a\""));
   EXPECT_THAT(complaint("x.csv", "frequency [Hz],a re,a im,b re,b im,c re,c im\n2,1,1,1,1,1,1\n"),
-              HasSubstr("one curve too many"));
+              HasSubstr("is an extra curve"));
   EXPECT_THAT(complaint("x.csv", "frequency [Hz],a re,a im,b re,b im\n2,1,1,1,1\n", "x/a"),
-              HasSubstr("holds 2 curves"));
-  EXPECT_THAT(complaint("x.uff", "    -1\n    15\n    -1\n"), HasSubstr("holds no data set 58"));
+              HasSubstr("contains 2 curves"));
+  EXPECT_THAT(complaint("x.uff", "    -1\n    15\n    -1\n"), HasSubstr("contains no data set 58"));
   EXPECT_THAT(complaint("x.uff", data_set(good, one, "18", "8", "58b")), HasSubstr("is binary"));
   EXPECT_THAT(complaint("x.uff", data_set(good, one, "17")),
               HasSubstr("x.uff:10: data set 58: its abscissa is of type 17"));
@@ -150,7 +151,7 @@ TEST_F(Measured, WhatIsWrongIsToldWithItsPlace)
               HasSubstr("must ascend"));
   EXPECT_THAT(complaint("x.uff", "    -1\n    58\nname\n"), HasSubstr("ends within data set 58"));
   EXPECT_THAT(complaint("x.uff", "    -1\n   164\n         5  mm (milli-newton)\n    -1\n" + data_set(good, one)),
-              HasSubstr("write the file in SI"));
+              HasSubstr("export the file in SI"));
   EXPECT_THAT(refusal([] { apps::measured_responses({"/nowhere.csv"}, two_pairs()); }), HasSubstr("cannot be read"));
 }
 

@@ -33,7 +33,7 @@ TEST(PeriodicScene, RefusesOptionsThatItsMethodDoesNotTake)
 TEST(PeriodicScene, OfAMachineThatNothingDrivesHasAFreeSpeed)
 {
   const std::string wheel = rotor_body("wheel", "0.6 kg m^2", "[0, 1, 0]") + "[start]\nv = { wheel = 15 }\n";
-  EXPECT_THAT(periodic_of(wheel).reason, testing::HasSubstr("its speed is free: give it by --period"));
+  EXPECT_THAT(periodic_of(wheel).reason, testing::HasSubstr("its speed is arbitrary: set it by --period"));
 }
 
 /// On a motion that a series gives, extremes lie between the samples: of a cosine its amplitude.

@@ -145,7 +145,7 @@ TEST_F(Window, TheLastPeriodIsTheCommonOneOfTheLoads)
 TEST_F(Window, TheLastPeriodIsARevolutionWhereNoLoadOscillates)
 {
   EXPECT_NEAR(run({"output.from=last period", "start.v.shaft=120 rpm"}, turning).run->from, 1.5, 1e-12);
-  expect_refusal([&] { run({"output.from=last period", "start.v.shaft=6 rpm"}, turning); }, "no period is known");
+  expect_refusal([&] { run({"output.from=last period", "start.v.shaft=6 rpm"}, turning); }, "the period is unknown");
 }
 
 std::string formula(const std::string &body, const std::string &motion, const std::string &force)
@@ -200,12 +200,16 @@ TEST_F(Window, ARevolutionNeedsTheSpeedOfTheStart)
 
 TEST_F(Window, WhatMakesNoSenseIsRefused)
 {
-  expect_refusal([&] { run({"output.from=2 s"}); }, "must lie before run.end");
-  expect_refusal([&] { run({"output.from=-0.1 s"}); }, "before the run begins at 0 s");
-  expect_refusal([&] { run({"run.begin=1 s", "output.from=0.9 s"}); }, "output.from: is 0.9 s, before the run begins");
+  expect_refusal([&] { run({"output.from=2 s"}); }, "must be before run.end");
+  expect_refusal([&] { run({"output.from=-0.1 s"}); }, "before the start of the run at 0 s");
+  expect_refusal(
+      [&] {
+        run({"run.begin=1 s", "output.from=0.9 s"});
+      },
+      "output.from: is 0.9 s, before the start of the run");
   expect_refusal([&] { run({"output.from=last turn"}); }, "output.from");
   expect_refusal([&] { run({"output.from=last perod"}); }, "did you mean 'last period'?");
-  expect_refusal([&] { run({"output.from=last period"}); }, "no period is known");
+  expect_refusal([&] { run({"output.from=last period"}); }, "the period is unknown");
   expect_refusal([&] { run({"output.from=last period", "run.end=0.4 s"}, shaken); }, "longer than the run");
 }
 

@@ -69,7 +69,7 @@ TEST_F(OfFlight, AllMeansTheNumbersAmongTheParametersThatAreNotZeroAndMatter)
   EXPECT_THAT(warnings,
               ::testing::Contains(::testing::HasSubstr("on which no value of the scene depends: parameters.idle")));
   EXPECT_THAT(warnings, ::testing::Not(::testing::Contains(::testing::HasSubstr("refused"))));
-  EXPECT_THAT(warnings, ::testing::Contains(::testing::HasSubstr("leaves out parameters that are 0")));
+  EXPECT_THAT(warnings, ::testing::Contains(::testing::HasSubstr("omits parameters that are 0")));
 }
 
 TEST_F(OfFlight, DerivativesComeInSiUnits)
@@ -104,7 +104,7 @@ TEST_F(OfFlight, WhatIsNoNumberOfTheMachineIsRefusedByName)
   refused("element.stop.side", "\"above\" is not a number");
   refused("body.mass.axis", "is an array");
   refused("parameters.none", "is 0");
-  refused("run.tolerance", "how the run is integrated");
+  refused("run.tolerance", "the integration of the run");
   refused("name", "the name of the scene");
   refused("parameters.m_1,parameters.m_1", "named twice");
   refused("parameters.m_1,", "with commas between them");
@@ -120,7 +120,8 @@ TEST_F(OfFlight, AnInterruptionKeepsTheRunAndWhatIsKnownByThen)
   EXPECT_EQ(result.run->events.size(), 2u);
   EXPECT_TRUE(sensitivities_of(result).interrupted);
   EXPECT_TRUE(std::isnan(output(sensitivities_of(result), "q.max").derivative[0]));
-  EXPECT_THAT(result.warnings, ::testing::Contains(::testing::HasSubstr("interrupted: sensitivities are known of")));
+  EXPECT_THAT(result.warnings,
+              ::testing::Contains(::testing::HasSubstr("interrupted: sensitivities cover the motion")));
 }
 
 TEST_F(OfFlight, AMotionThatTouchesAStopHasNone)

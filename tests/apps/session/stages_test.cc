@@ -114,7 +114,7 @@ TEST(Stages, TellHowFarALimitWasMissed)
 {
   const apps::Result result = crane_run({"switch.limiter.above=\"900 kN\"", "run.end=\"1 s\""});
   for (const char *words :
-       {"never came to the border 'limiter'", "cylinder.force comes to 2", "the switch needs 9e+05"})
+       {"did not reach the stage boundary 'limiter'", "cylinder.force reaches 2", "its switch needs 9e+05"})
     EXPECT_THAT(result.run->failure, ::testing::HasSubstr(words));
   EXPECT_GT(result.run->rows.size(), 0u); // kept
 }
@@ -122,7 +122,7 @@ TEST(Stages, TellHowFarALimitWasMissed)
 TEST(Stages, DoNotBeginBeyondTheirLimit)
 {
   const apps::Result result = crane_run({"switch.limiter.above=\"100 kN\"", "run.end=\"1 s\""});
-  EXPECT_THAT(result.run->failure, ::testing::HasSubstr("the stage 'luffing' is over at the start"));
+  EXPECT_THAT(result.run->failure, ::testing::HasSubstr("the stage 'luffing' is empty"));
 }
 
 TEST(Stages, NeedNamesAndSignalsThatThereAre)
@@ -131,7 +131,7 @@ TEST(Stages, NeedNamesAndSignalsThatThereAre)
   { return refusal([&] { apps::read_scene(shipped("crane_minimal.toml"), {"output.stages=" + stages}); }); };
   EXPECT_THAT(refused("{borders=[\"limiter\"], names=[\"a\"]}"), ::testing::HasSubstr("1 border part the run into 2"));
   EXPECT_THAT(refused("{borders=[\"limiter\"], ringing=[\"q9\"]}"), ::testing::HasSubstr("no signal 'q9'"));
-  EXPECT_THAT(refused("{borders=[]}"), ::testing::HasSubstr("needs at least one text"));
+  EXPECT_THAT(refused("{borders=[]}"), ::testing::HasSubstr("needs at least one string"));
 }
 
 // --- a switch that ends the run

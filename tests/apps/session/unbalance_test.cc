@@ -226,7 +226,7 @@ TEST(Unbalance, WhatCannotBeIsToldWithItsRemedy)
   using ::testing::HasSubstr;
   const std::string run = run_of("method = \"exact\"\nstep = 1e-4", "0.1 s", "1 ms");
   EXPECT_THAT(refusal([&] { run_text(carrier() + rotor(0.05) + run); }),
-              HasSubstr("take the method bdf or one of the Newmark family"));
+              HasSubstr("use the method bdf or one of the Newmark family"));
   const auto complaint = [](const Keys &more)
   { return test::complaint(test::quoted(carrier() + rotor_body("rotor", "0.001", "[0, 1, 0]", more))); };
   EXPECT_THAT(complaint({{"unbalance_phase", "1"}}), HasSubstr("has 'unbalance_phase' but no 'unbalance'"));

@@ -77,7 +77,8 @@ TEST(FrameBudget, OfSweptPlatesIsKnownWhereAllFacesArePlanes)
     const BudgetEntry &entry   = budget.entries.at(0);
     EXPECT_EQ(entry.mesh.error.has_value(), !has_hole) << entry.mesh.reason;
     EXPECT_EQ(entry.total.has_value(), !has_hole);
-    EXPECT_EQ(entry.mesh.reason.find("straight at curved faces") != std::string::npos, has_hole) << entry.mesh.reason;
+    EXPECT_EQ(entry.mesh.reason.find("straight edges at curved faces") != std::string::npos, has_hole)
+        << entry.mesh.reason;
   }
 }
 

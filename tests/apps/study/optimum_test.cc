@@ -198,8 +198,8 @@ TEST(Optimum, RefusesTasksThatMakeNoSense)
 
   expect_refusal(find(task_in_box(2, {})), "no goals");
   expect_refusal(find(task_in_box(2, {{2}})), "output 3 of 2");
-  expect_refusal(find(task_in_box(2, {{0, Sense::minimise, -1.}})), "take maximise");
-  expect_refusal(find(task_in_box(2, {{0}}, {{1, 2., 1.}})), "holds nothing");
+  expect_refusal(find(task_in_box(2, {{0, Sense::minimise, -1.}})), "use maximise");
+  expect_refusal(find(task_in_box(2, {{0}}, {{1, 2., 1.}})), "is empty");
   expect_refusal(find(task_in_box(2, {{0}}), none), "0 starts");
   expect_refusal([&] { find_optimum(no_gradient, task_in_box(2, {{0}})); }, "derivative-free");
   expect_refusal([] { search_method("gradients"); }, "gradient");

@@ -120,7 +120,7 @@ TEST(StudyFile, TakesADimensionThatIsVariedByFiles)
 
   const auto says = [](const std::string &text, const std::string &words)
   { expect_refusal([&] { Written(text).points(); }, words); };
-  says(with(both, "type = 'Sobol'\nruns = 4"), "those of wall are files; take \"full factorial\" or \"list\"");
+  says(with(both, "type = 'Sobol'\nruns = 4"), "those of wall are files; use \"full factorial\" or \"list\"");
   says(with(both, "type = 'list'\nrows = [['17 mm']]"), "variable wall: no file has the value 17 mm");
   says(with("{ file = 'a.step' }, { file = 'b.step', value = 2 }"), "needs a file with its value in each");
   says(with("{ file = 'a.step', value = 2 }, 'b.step'"), "needs a file with its value in each");

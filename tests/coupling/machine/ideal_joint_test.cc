@@ -281,7 +281,7 @@ TEST(Assembly, NamesTheJointThatStaysOpenAndTheOneThatIsOneTooMany)
   expect_refusal(assembled, "one equation is redundant:\n  \"right\" (fx), which holds \"bar\", follows from the "
                             "equations of \"left\"");
   known.state.q[2] = 0.3;
-  expect_refusal(assembled, "stays open by");
+  expect_refusal(assembled, "has a gap of");
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Runs that cannot go on say why: forces that nothing determines, motions beyond all numbers.
+// Runs that cannot go on say why: forces that nothing determines, motions diverged.
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/integration/propagation/force_rule.h"
@@ -67,7 +67,7 @@ TEST(Simulation, ThatGrowsBeyondAllNumbersStopsAndSaysSo)
   run.end                = 500.;
   run.force_unstable     = true;
   const RunResult result = simulate(machine, start(1., 0.), run, {});
-  EXPECT_NE(result.failure.find("beyond all numbers"), std::string::npos) << result.failure;
+  EXPECT_NE(result.failure.find("diverged"), std::string::npos) << result.failure;
 }
 
 TEST(Simulation, AMassThatSticksCostsNoSearchForKinks)

@@ -47,7 +47,7 @@ TEST(EnergyGuard, NumericalDampingIsAWarningWithItsShare)
     EXPECT_NE(result.findings[0].text.find("numerical dissipation: BDF 2 with a step of 0.02 s is too coarse"),
               std::string::npos)
         << result.findings[0].text;
-    EXPECT_NE(result.findings[0].text.find("% of the 0.5 J that the motion exchanges"), std::string::npos)
+    EXPECT_NE(result.findings[0].text.find("% of the 0.5 J exchanged by the motion"), std::string::npos)
         << result.findings[0].text;
   }
 }

@@ -313,9 +313,9 @@ TEST(StiffnessCheck, EndsARunInAContactThatBecomesTooStiffForItsStep)
   {
     const RunResult ended = thrown(method);
     EXPECT_TRUE(says(ended.failure, "\"stop\"")) << method_name(method) << ended.failure;
-    const auto at = ended.failure.find("take run.step = ");
+    const auto at = ended.failure.find("use run.step = ");
     ASSERT_NE(at, std::string::npos);
-    method.step           = std::stod(ended.failure.substr(at + 16));
+    method.step           = std::stod(ended.failure.substr(at + 15));
     const RunResult taken = thrown(method);
     EXPECT_EQ(taken.failure, "") << method_name(method);
     EXPECT_LT(rebound(taken), 10.5) << method_name(method); // it came with 10 m/s

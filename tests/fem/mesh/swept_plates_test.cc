@@ -264,8 +264,8 @@ TEST(SweptPlates, TellWhatWasFound)
 {
   FrameSpecification   s      = swept(draw("bored.step", bored_plate), 0.);
   const GeometryReport report = report_geometry(s);
-  EXPECT_THAT(report.statements,
-              Contains(AllOf(HasSubstr("plates are swept: 1 wall, 8 mm thick"), HasSubstr("2 regions around holes"))));
+  EXPECT_THAT(report.statements, Contains(AllOf(HasSubstr("plates are meshed by sweeping: 1 wall, 8 mm thick"),
+                                                HasSubstr("2 regions around holes"))));
   EXPECT_EQ(report.n_of_kind[0], 0u);
   EXPECT_GT(report.n_of_kind[1], 0u);
 }

@@ -154,7 +154,7 @@ void join_rows(const SceneTable &frame, const std::string &key, const std::vecto
                                text_of_some(stiff) + " there); are they of different models?");
   if (!more.empty())
     frame.warn(key, count_text(more.size(), "row") +
-                        " of it are not in the stiffness, so that they are unconstrained: " + text_of_some(more) +
+                        " of it are not in the stiffness, so they are unconstrained: " + text_of_some(more) +
                         "; right for interfaces that hold the frame statically determinate, else "
                         "the files are of different models");
   for (const RowLabel &row : missing_rows(more, rows))
@@ -260,14 +260,13 @@ void tell_left_damping(const SceneTable &frame, const MatrixFiles &files)
   const std::string viscous    = files.left_in_files([](const std::string &name) { return name[0] == 'B'; });
   const std::string structural = files.left_in_files([](const std::string &name) { return name.rfind("K4", 0) == 0; });
   if (!viscous.empty())
-    frame.warn("stiffness",
-               "the file has a damping matrix " + viscous +
-                   ", which is left out; damping = the same file takes it, damping = { ratio = 0.01 } says "
-                   "that it is not wanted");
+    frame.warn("stiffness", "the file has a damping matrix " + viscous +
+                                ", which is ignored; to use it set damping to the same file, to ignore it without this "
+                                "note set damping = { ratio = 0.01 }");
   if (!structural.empty())
     frame.warn("stiffness", "the file has structural damping " + structural +
-                                ", a loss in each cycle that no motion in time has as a matrix; it is left out: give "
-                                "damping = { ratio = ... } at half the loss factor");
+                                ", which has no equivalent in the time domain and is ignored; set damping = { ratio = "
+                                "... } to half the loss factor");
 }
 
 /// The matrix files that also contain nodes, each once.
@@ -315,7 +314,7 @@ void turn_to_global(const SceneTable &frame, const std::map<long, Eigen::Matrix3
                           "node " + std::to_string(row.node) +
                               " has its own displacement coordinate system (CD), and " +
                               text_of(RowLabel{row.node, first + d}) +
-                              " has no row; all three are needed to turn them to the global axes");
+                              " has no row; all three are needed to rotate them to the global axes");
       entries.emplace_back(other->second, int(i), turn->second(d, row.component - first));
     }
   }
@@ -353,8 +352,8 @@ GivenMatrices read_given_matrices(const SceneTable &frame)
   else
   {
     if (!units.are_si())
-      throw frame.error("file_units", "needs to know which rows are displacements and which rotations: add rows = the "
-                                      "file that tells (.dof, .mapping), or write the matrices in kg, m, N");
+      throw frame.error("file_units", "needs to know which rows are displacements and which are rotations: add rows = "
+                                      "the file that defines them (.dof, .mapping), or write the matrices in kg, m, N");
     require_size(frame, "stiffness", C.A, M.A.rows());
     given.M = std::move(M.A);
     given.C = std::move(C.A);

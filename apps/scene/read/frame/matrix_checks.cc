@@ -102,8 +102,8 @@ void check_symmetry(const SceneTable &frame, const std::string &key, const Spars
   if (skew <= symmetry_tolerance * size)
     return;
   if (has_one_triangle_only(A))
-    throw frame.error(key, "holds one triangle of a symmetric matrix only; write both, or a MatrixMarket file with "
-                           "'symmetric' in its head line and the lower triangle");
+    throw frame.error(key, "contains only one triangle of a symmetric matrix; write both, or a MatrixMarket file with "
+                           "'symmetric' in its header line and the lower triangle");
   const auto entry = [&](int i, int j)
   {
     return "row " + std::to_string(i + 1) + ", column " + std::to_string(j + 1) +
@@ -111,7 +111,7 @@ void check_symmetry(const SceneTable &frame, const std::string &key, const Spars
            number_text(A.coeff(i, j));
   };
   throw frame.error(key, "is not symmetric: " + entry(row, column) + ", but " + entry(column, row) +
-                             "; frames with gyroscopic or follower terms cannot be taken, export the symmetric part");
+                             "; gyroscopic or follower terms are not supported, export the symmetric part");
 }
 
 void require_positive_diagonal(const SceneTable &frame, const std::string &key, const Sparse &matrix,
@@ -146,12 +146,11 @@ void check_semidefinite(const SceneTable &frame, const std::string &key, const S
   // times what rounding explains: its own program had fewer digits, no more
   constexpr double beyond_doubt = 100.;
   if (is_semidefinite(A, beyond_doubt * explained))
-    frame.warn(key,
-               "has a motion of slightly negative energy, beyond " + number_text(explained) +
-                   " at unit diagonal that rounding in its file explains; was it written with fewer digits before?");
+    frame.warn(key, "has slightly negative energy for some motion, beyond " + number_text(explained) +
+                        " at unit diagonal, the rounding of its file; was it written with fewer digits before?");
   else
-    throw frame.error(key, "is not positive semidefinite: by its entries beside the diagonal some motion has negative "
-                           "energy; check their signs and units");
+    throw frame.error(key, "is not positive semidefinite: its off-diagonal entries give some motion negative energy; "
+                           "check their signs and units");
 }
 
 void check_mass(const SceneTable &frame, const Sparse &M, double rounding, const Sparse &C,
@@ -159,19 +158,19 @@ void check_mass(const SceneTable &frame, const Sparse &M, double rounding, const
 {
   check_semidefinite(frame, "mass", M, rounding, rows);
   if (M.diagonal().maxCoeff() == 0.)
-    throw frame.error("mass", "has nothing but zeros on its diagonal; some coordinate needs a mass");
+    throw frame.error("mass", "has only zeros on its diagonal; at least one coordinate needs a mass");
   const Eigen::VectorXd mass = M.diagonal(), stiffness = C.diagonal(); // of semidefinite matrices zero rows
   // of the largest: frequencies would differ by 1e15, more than a double has digits
   constexpr double vanishing_mass = 1e-30;
   for (Eigen::Index i = 0; i < mass.size(); ++i)
     if (mass[i] == 0. && stiffness[i] == 0.)
-      throw frame.error("mass", row_text(i, rows) + " has neither mass nor stiffness, so that nothing says how "
-                                                    "it moves; remove the row and column from all matrices");
+      throw frame.error("mass", row_text(i, rows) + " has neither mass nor stiffness, so its motion is undefined; "
+                                                    "remove the row and column from all matrices");
     else if (mass[i] > 0. && mass[i] < vanishing_mass * mass.maxCoeff())
       throw frame.error("mass", row_text(i, rows) + " has " + number_text(mass[i]) +
-                                    " on the diagonal, next to nothing beside the largest, " +
+                                    " on the diagonal, negligible relative to the largest, " +
                                     number_text(mass.maxCoeff()) +
-                                    ": its frequency would be beyond all numbers; write 0 where there is no mass");
+                                    ": its frequency would overflow; write 0 for no mass");
 }
 
 void check_magnitude(const SceneTable &frame, const std::string &key, const Sparse &A)
@@ -179,9 +178,9 @@ void check_magnitude(const SceneTable &frame, const std::string &key, const Spar
   const double     largest       = A.nonZeros() > 0 ? A.coeffs().cwiseAbs().maxCoeff() : 0.;
   constexpr double largest_entry = 1e100; // products of three entries stay finite, and their inverses above zero
   if (largest > largest_entry || (largest > 0. && largest < 1. / largest_entry))
-    throw frame.error(key, "has " + number_text(largest) +
-                               " as its largest entry, which no frame has in kg, m, N and "
-                               "rad; check its units and how it was written");
+    throw frame.error(
+        key, "has " + number_text(largest) +
+                 " as its largest entry, implausible for a frame in kg, m, N and rad; check its units and its export");
 }
 
 } // namespace gestell::apps

@@ -121,8 +121,8 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
   std::vector<std::string> suspicions;
   constexpr double         slowest = 0.1; // [Hz] buildings have some tenths
   if (const double f = fastest_coordinate(frame) / (2. * M_PI); f < slowest)
-    suspicions.push_back(text_of({"no coordinate of the frame vibrates faster than ",
-                                  " Hz by itself, and no frame is so slow: are mass and stiffness exchanged?"},
+    suspicions.push_back(text_of({"no coordinate of the frame has a frequency above ",
+                                  " Hz, implausibly slow for a frame: are mass and stiffness exchanged?"},
                                  f));
   const auto       sides            = box_of(frame.picture.points, frame.interfaces);
   const double     size             = *std::max_element(sides.begin(), sides.end());
@@ -130,7 +130,7 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
   constexpr double fastest_of_nodes = 6e4; // [m/s] ten times the wave speed of metals, from node to node
   if (const double speed = wave_speed(frame, nodes); speed > fastest_of_nodes && size <= largest_frame)
     suspicions.push_back(
-        text_of({"waves run from node to node with ",
+        text_of({"waves travel from node to node with ",
                  " m/s, far faster than in any metal (5000 m/s): are masses in tonnes? They must be in "
                  "kg, so that stiffness in N/m fits"},
                 speed));

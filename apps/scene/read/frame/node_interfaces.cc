@@ -35,9 +35,7 @@ public:
       throw std::invalid_argument(place_ + ": '" + marker +
                                   "' is a single node of the frame's mesh, which has no "
                                   "rotation, but " +
-                                  what +
-                                  "; give the interface coupling = \"average\", or act on "
-                                  "its displacements");
+                                  what + "; give the interface coupling = \"average\", or act on its displacements");
   }
 
   void look_at(const PlaceRequest &point) const
@@ -50,7 +48,7 @@ public:
       squared += std::pow((*point.at)[d] - node->second[d], 2);
     constexpr double same_place = 1e-6; // [m] files have positions to micrometres
     if (squared > same_place * same_place)
-      refuse(point.marker, "a point beside it would move with its rotation too: leave 'at' out, or give it the "
+      refuse(point.marker, "a point next to it would also move with its rotation: remove 'at', or set it to the "
                            "'position' of the interface");
   }
 
@@ -58,7 +56,7 @@ public:
   {
     for (const MotionTerm &term : u)
       if (term.rotation)
-        refuse(term.marker, "its angle is asked for");
+        refuse(term.marker, "an angle of it is requested");
   }
 
   void look_at(const TermRequest &term) const
@@ -78,7 +76,7 @@ public:
     {
       look_at(*point);
       if (measure.terms.empty() && (measure.form == Form::angle || measure.form == Form::inclination))
-        refuse(point->marker, "its angle is asked for");
+        refuse(point->marker, "an angle of it is requested");
     }
   }
 
@@ -88,7 +86,7 @@ public:
     {
       look_at(*point);
       if (joint.holds_rotations)
-        refuse(point->marker, "this joint holds rotations; a spherical one does not");
+        refuse(point->marker, "this joint constrains rotations; a spherical one does not");
     }
     look_at(joint.measure);
   }
@@ -99,7 +97,7 @@ public:
     {
       look_at(*point);
       if (pair.about)
-        refuse(point->marker, "its angle is asked for");
+        refuse(point->marker, "an angle of it is requested");
     }
   }
 
@@ -123,7 +121,7 @@ void look_at_signals(const Scene &scene, Search &search)
           tells(signal.path) || std::any_of(signal.of.begin(), signal.of.end(), tells))
       {
         search.look_at(signal.place);
-        search.refuse("frame." + interface.name, "its angle is asked for");
+        search.refuse("frame." + interface.name, "an angle of it is requested");
       }
 }
 

@@ -26,7 +26,7 @@ fem::ModalRatios read_ratios(const SceneTable &damping)
     for (const auto &[hz, zeta] : damping.pairs("ratio", kind::frequency, kind::number))
     {
       if (!(hz > (ratios.by_frequency.empty() ? 0. : ratios.by_frequency.back().first)))
-        throw damping.error("ratio", "needs frequencies above zero that grow from row to row");
+        throw damping.error("ratio", "needs frequencies above zero in ascending order");
       ratios.by_frequency.emplace_back(hz, zeta);
       check_ratio(damping, zeta);
     }
@@ -61,13 +61,13 @@ void read_rayleigh(const SceneTable &damping, FrameDamping &result)
     check_ratio(pairs[i], zeta[i]);
   }
   if (!(omega[1] > omega[0]))
-    throw pairs[1].error("frequency", "must lie above that of the first pair");
+    throw pairs[1].error("frequency", "must be above that of the first pair");
   const double squares = omega[1] * omega[1] - omega[0] * omega[0];
   result.beta          = 2. * (zeta[1] * omega[1] - zeta[0] * omega[0]) / squares;
   result.alpha         = 2. * omega[0] * omega[1] * (zeta[0] * omega[1] - zeta[1] * omega[0]) / squares;
   if (result.alpha < 0. || result.beta < 0.)
-    throw damping.error("rayleigh", "would feed some vibrations instead of damping them: the two ratios differ by more "
-                                    "than their frequencies do; bring them nearer to each other");
+    throw damping.error("rayleigh", "would amplify some vibrations: the two ratios differ by a larger factor than "
+                                    "their frequencies; use more similar ratios");
 }
 
 } // namespace
@@ -98,7 +98,7 @@ FrameDamping read_damping(const SceneTable &any)
   if (!damping.has("rayleigh"))
     result.ratios = read_ratios(damping);
   else if (damping.has("ratio"))
-    throw damping.error("rayleigh", "says how all modes are damped, as `ratio` does; leave out one of them");
+    throw damping.error("rayleigh", "defines the damping of all modes, as `ratio` does; remove one of them");
   else
     read_rayleigh(damping, result);
   return result;

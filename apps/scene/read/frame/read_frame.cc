@@ -19,8 +19,8 @@ void refuse_flexible(const fem::FrameSpecification &frame)
   for (const fem::InterfaceSpecification &interface : frame.interfaces)
     if (interface.coupling == fem::InterfaceCoupling::flexible)
       throw std::invalid_argument(interface.place +
-                                  ": coupling = \"flexible\" is for faces that a weld or a contact of parts holds; "
-                                  "where a mechanism acts, a surface stays flexible with coupling = \"average\"");
+                                  ": coupling = \"flexible\" is for faces in a weld or contact of parts; for a "
+                                  "flexible surface on which a mechanism acts use coupling = \"average\"");
 }
 
 } // namespace
@@ -46,13 +46,13 @@ FrameRequest read_frame(const SceneTable &scene)
     throw frame->error(
         "needs exactly one of 'cad' (a CAD or mesh file), 'mass' with 'stiffness' (matrices), 'reduced' "
         "(a reduced frame) and 'part' (tables of several parts)" +
-        (given.empty() ? "; leave [frame] out for a machine without one" : given + "; keep one of them"));
+        (given.empty() ? "; remove [frame] for a machine without a frame" : given + "; keep one of them"));
   }
   if (!cad && frame->has("parts"))
     throw frame->error(
         "parts", "cuts the mesh of a frame from 'cad'; a frame " +
                      std::string(parts ? "of parts has one mesh for each" : "that is given by matrices has no mesh") +
-                     "; leave it out");
+                     "; remove it");
   if (cad)
   {
     request.source   = FrameSource::geometry;

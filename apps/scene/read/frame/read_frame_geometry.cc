@@ -33,7 +33,7 @@ fem::SurfaceSelector read_surface(const SceneTable &any)
     surface.box = fem::SurfaceSelector::Box{box->vector("min"), box->vector("max")};
     for (int i = 0; i < 3; ++i)
       if (surface.box->min[i] > surface.box->max[i])
-        throw box->error("'min' lies above 'max' in direction " + std::string(1, "xyz"[i]));
+        throw box->error("'min' is above 'max' in direction " + std::string(1, "xyz"[i]));
   }
   if (table.has("group"))
     surface.group = table.text("group");
@@ -102,7 +102,7 @@ fem::Support read_support(const SceneTable &any, const fem::FrameSpecification &
   if (clamped == foundation.has_value())
     throw table.error("needs either 'clamped = true' or 'foundation = { stiffness = ..., damping = ... }'");
   if (directions && !clamped)
-    throw table.error("directions", "belongs to a clamped support; a foundation takes stiffness = [x, y, z]");
+    throw table.error("directions", "applies to a clamped support; a foundation needs stiffness = [x, y, z]");
 
   support.kind = clamped ? fem::SupportKind::clamped : fem::SupportKind::foundation;
   if (directions)
@@ -139,7 +139,7 @@ void read_degree(const SceneTable &table, fem::InterfaceSpecification &interface
   if (interface.coupling == fem::InterfaceCoupling::flexible)
     interface.degree = degree;
   else if (table.has("degree"))
-    throw table.error("degree", "belongs to coupling = \"flexible\"; leave it out");
+    throw table.error("degree", "applies to coupling = \"flexible\" only; remove it");
   if (degree < 1 || degree > largest)
     throw table.error("degree",
                       "got " + std::to_string(degree) + "; needs an integer from 1 to " + std::to_string(largest));
@@ -159,7 +159,7 @@ fem::InterfaceSpecification read_interface(const SceneTable &any, const fem::Fra
   if (point || node)
     table.vector("position"); // required
   if (table.has("radius") && !point)
-    throw table.error("radius", "belongs to coupling = \"point\"; other interfaces take the whole of their surfaces");
+    throw table.error("radius", "applies to coupling = \"point\" only; other interfaces use their whole surfaces");
   if (point)
     interface.radius = table.value_or("radius", 0.);
   read_degree(table, interface);
@@ -191,11 +191,11 @@ fem::MeshOptions read_mesh(const SceneTable &table, const fem::FrameSpecificatio
   mesh.place = table.place();
   mesh.size  = is_mesh_file ? table.value_or("size", 0.) : table.value("size");
   if (mesh.layers < 1)
-    throw table.error("layers", "needs the number of cells through a plate, 1 or more");
+    throw table.error("layers", "needs the number of elements through a plate, 1 or more");
   if (table.has("layers") && mesh.plates != fem::Plates::swept)
-    throw table.error("layers", "counts cells through swept plates; give plates = \"swept\", or leave it out");
+    throw table.error("layers", "is the number of elements through swept plates; set plates = \"swept\", or remove it");
   if (mesh.curved && mesh.plates == fem::Plates::swept)
-    throw table.error("curved", "is for tetrahedra, the sides of swept cells are straight; leave it or plates out");
+    throw table.error("curved", "is for tetrahedra, but swept elements have straight edges; remove it or 'plates'");
   if (mesh.bodies < 1)
     throw table.error("bodies", "needs the number of bodies expected, 1 or more");
   std::vector<std::string> own;
@@ -227,18 +227,18 @@ void check_overlaps(const SceneTable &frame, const fem::FrameSpecification &spec
       if (interface.coupling == fem::InterfaceCoupling::point || interface.coupling == fem::InterfaceCoupling::node)
         continue; // takes but a few nodes; that these are its own is checked on the mesh
       else if (const auto [first, is_new] = owner.emplace(surface, "interface '" + interface.name + "'"); !is_new)
-        throw std::invalid_argument(interface.place + ": surface '" + surface + "' belongs to " + first->second +
-                                    " already; give each interface surfaces of its own");
+        throw std::invalid_argument(interface.place + ": surface '" + surface + "' is part of " + first->second +
+                                    "; give each interface separate surfaces");
   for (const auto &mass : specification.masses)
     for (const auto &surface : mass.surfaces)
       if (const auto [first, is_new] = owner.emplace(surface, "mass '" + mass.name + "'"); !is_new)
-        throw std::invalid_argument(mass.place + ": surface '" + surface + "' belongs to " + first->second +
-                                    " already; put the mass on that interface, or give it surfaces of its own");
+        throw std::invalid_argument(mass.place + ": surface '" + surface + "' is part of " + first->second +
+                                    "; put the mass on that interface, or give it separate surfaces");
   for (const auto &support : specification.supports)
     if (support.kind == fem::SupportKind::clamped)
       for (const auto &surface : support.surfaces)
         if (owner.count(surface))
-          throw std::invalid_argument(support.place + ": surface '" + surface + "' is clamped, but belongs to " +
+          throw std::invalid_argument(support.place + ": surface '" + surface + "' is clamped, but is part of " +
                                       owner.at(surface) + ", which must be free to move");
   if (specification.interfaces.empty())
     throw frame.error("has no interface; declare at least one [" + frame.path() +
@@ -257,7 +257,7 @@ fem::AttachedMass read_mass(const SceneTable &any, const fem::FrameSpecification
     mass.inertia = read_tensor(table);
   const bool surfaces = table.has("surface") || table.has("surfaces");
   if (surfaces == table.has("on"))
-    throw table.error("needs either 'on', the interface that carries it, or 'surfaces' it is fastened to");
+    throw table.error("needs either 'on', the interface that carries it, or 'surfaces' for its attachment");
   if (surfaces)
   {
     mass.surfaces = read_surface_names(table, frame);

@@ -35,14 +35,13 @@ void read_rows(const SceneTable &table, Eigen::Index n, fem::Interface &interfac
     const auto found = std::find(motion_names.begin(), motion_names.end(), key.substr(minus));
     if (found == motion_names.end())
       throw rows.error(key, "is not a DOF; valid: " + listed(motion_names) +
-                                ", each with '-' before it if the row counts "
-                                "against the axis");
+                                ", each with '-' if the row is positive against the axis");
     const int motion = found - motion_names.begin(), row = rows.integer(key, 0);
     if (row < 1 || row > n)
       throw rows.error(key,
                        "there is no row " + std::to_string(row) + "; the matrices have rows 1 to " + std::to_string(n));
     if (interface.coordinate[motion] >= 0)
-      throw rows.error(key, "the motion " + *found + " has a row already");
+      throw rows.error(key, "the DOF " + *found + " already has a row");
     interface.coordinate[motion] = row - 1;
     interface.sign[motion]       = minus ? -1. : 1.;
   }
@@ -81,9 +80,9 @@ const TableNode &node_of_number(const SceneTable &table, const FrameNodes &nodes
 const TableNode &node_at(const SceneTable &table, const FrameNodes &nodes)
 {
   if (nodes.places.empty())
-    throw table.error("position",
-                      "finds a node where the places of nodes are known; add nodes = the file that has them, "
-                      "or name the node: node = 12");
+    throw table.error(
+        "position",
+        "needs the positions of nodes; add nodes = the file that contains them, or name the node: node = 12");
   const Vector3 x       = table.vector_or("position", {});
   const auto   &nearest = *std::min_element(
         nodes.all.begin(), nodes.all.end(),
@@ -104,7 +103,7 @@ void read_node(const SceneTable &table, const FrameNodes &nodes, fem::Interface 
     return; // at its `position`
   if (table.has("position") && distance(interface.position, node.motions.position) > tolerance_of(nodes))
     throw table.error("position", "node " + std::to_string(node.number) + " is at " +
-                                      place_text(node.motions.position) + "; leave one of 'node' and 'position' out");
+                                      place_text(node.motions.position) + "; remove 'node' or 'position'");
   interface.position = node.motions.position;
 }
 
@@ -126,16 +125,17 @@ void add_interface(const SceneTable &any, const GivenMatrices &given, const Fram
   check_thing_name(table);
   for (const auto &other : interfaces)
     if (other.name == table.name())
-      throw table.error("is a node of the table of nodes already; rename one of them");
+      throw table.error("is already a node of the table of nodes; rename one of them");
   fem::Interface interface;
   interface.name     = table.name();
   interface.position = table.vector_or("position", {});
   const bool by_node = table.has("node") || (!given.rows.empty() && !table.has("rows"));
   if (table.has("node") && (given.rows.empty() || table.has("rows")))
-    throw table.error("node", table.has("rows")
-                                  ? "leave one of 'node' and 'rows' out"
-                                  : "is for matrices that tell the nodes of their rows; give rows = { uz = 1 }, "
-                                    "or 'rows' of [frame]");
+    throw table.error(
+        "node",
+        table.has("rows")
+            ? "remove 'node' or 'rows'"
+            : "needs matrices that define the nodes of their rows; give rows = { uz = 1 }, or 'rows' of [frame]");
   if (by_node && !table.has("node") && !table.has("position"))
     throw table.error("needs node = the number of its node, or its 'position'");
   if (by_node)
@@ -165,7 +165,7 @@ std::vector<fem::Interface> named_nodes(const SceneTable &frame, const std::vect
         if (const auto [first, is_new] = owner.emplace(row, motions.name + "." + motion_names[motion]); !is_new)
           throw refused("has row " + std::to_string(row) + ", which is " + first->second + " already");
     if (*std::max_element(motions.coordinate.begin(), motions.coordinate.end()) < 0)
-      throw refused("has no row; a node with a name is an interface and needs one at least");
+      throw refused("has no row; a named node is an interface and needs at least one");
     interfaces.push_back(motions);
   }
   return interfaces;
@@ -322,8 +322,8 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
     matrices.translations = read_translations(frame, matrices, nodes.all, has_translations);
   matrices.mass = total_mass(frame, matrices, has_translations);
   if (matrices.mass == 0.)
-    matrices.statements.push_back("mass of the frame: not known, and effective masses count the rows of interfaces and "
-                                  "nodes alone; 'translations' says how all rows move, 'total_mass' what it weighs");
+    matrices.statements.push_back("mass of the frame: unknown, so effective masses include only the rows of interfaces "
+                                  "and nodes; 'translations' defines the motion of all rows, 'total_mass' the mass");
   std::vector<fem::Interface> placed = matrices.interfaces;
   for (const TableNode &node : nodes.all)
     placed.push_back(node.motions);

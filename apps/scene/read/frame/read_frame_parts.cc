@@ -126,9 +126,7 @@ void refuse_beside_same_as(const SceneTable &part)
 {
   for (const std::string &key : part.keys())
     if (key != "same_as" && key != "placement")
-      throw part.error(key, "is that of '" + part.text("same_as") +
-                                "' already; beside 'same_as' only 'placement' is "
-                                "given");
+      throw part.error(key, "is that of '" + part.text("same_as") + "'; with 'same_as' only 'placement' is allowed");
 }
 
 /// One that is the same as another has no geometry yet.
@@ -137,7 +135,7 @@ FramePart read_frame_part(const SceneTable &any, const SceneTable &scene)
   const SceneTable table = any.declared(frame_part_keys());
   check_thing_name(table);
   if (table.name() == "joint")
-    throw table.error("'joint' heads the signals of joints; choose another name");
+    throw table.error("'joint' is reserved for signals of joints; choose another name");
   FramePart part;
   part.name      = table.name();
   part.place     = table.place();
@@ -166,7 +164,7 @@ std::vector<FramePart> read_parts(const SceneTable &frame, const SceneTable &sce
       const std::string same = tables[i].text("same_as");
       if (std::find(names.begin(), names.end(), same) == names.end())
         throw tables[i].error("same_as",
-                              "there is no part '" + same + "' with geometry of its own" + suggestion(same, names));
+                              "there is no part '" + same + "' with its own geometry" + suggestion(same, names));
       parts[i].geometry =
           std::find_if(parts.begin(), parts.end(), [&](const FramePart &part) { return part.name == same; })->geometry;
     }
@@ -191,8 +189,8 @@ coupling::BoltedJoint read_bolts(const SceneTable &table)
   bolts.rotational         = column(read_per_direction(table, "rotational_stiffness", kind::torsional_stiffness));
   bolts.rotational_damping = column(read_per_direction(table, "rotational_damping", kind::torsional_damping));
   if (bolts.stiffness.isZero(0.))
-    throw table.error("needs a 'stiffness' of the bolts such as \"2 MN/mm\"; interfaces that move as one are joined by "
-                      "type = \"weld\"");
+    throw table.error(
+        "needs a 'stiffness' of the bolts such as \"2 MN/mm\"; to join interfaces rigidly use type = \"weld\"");
   if (table.has("positions"))
     for (const auto &row : table.matrix("positions", kind::length))
     {
@@ -232,7 +230,7 @@ void refuse_other_keys(const SceneTable &table, const std::string &type)
   {
     for (const std::string &key : keys)
       if (table.has(key))
-        throw table.error(key, "belongs to " + owner + ", but this joint is a " + type + "; leave it out");
+        throw table.error(key, "applies to " + owner + ", but this joint is a " + type + "; remove it");
   };
   if (type != "bolts")
     refuse(bolts, "type = \"bolts\"");
@@ -270,7 +268,8 @@ FrameJoint read_frame_joint(const SceneTable &any, const SceneTable &scene)
   if (table.has("normal"))
     joint.normal = column(table.direction("normal"));
   else if (joint.kind == JointKind::contact || joint.bolts.preload > 0.)
-    throw table.error("needs 'normal', across the faces from the first part to the second, to tell pressure from pull");
+    throw table.error(
+        "needs 'normal', normal to the faces from the first part to the second, to distinguish pressure from tension");
   if (table.has("tolerance"))
     joint.tolerance = table.value("tolerance");
   joint.keep = table.truth("keep");
@@ -284,8 +283,9 @@ void read_whole_damping(const SceneTable &frame, FrameOfParts &parts)
     return;
   const FrameDamping damping = read_damping(*table);
   if (damping.alpha != 0. || damping.beta != 0.)
-    throw table->error("rayleigh", "is in proportion to the mass and the stiffness of a part; give it to the parts, "
-                                   "[frame.part.NAME] damping");
+    throw table->error(
+        "rayleigh",
+        "is proportional to the mass and stiffness of a part; set it for the parts, [frame.part.NAME] damping");
   parts.modal_damping_ratio = damping.ratios;
 }
 
@@ -302,11 +302,11 @@ FrameOfParts read_frame_parts(const SceneTable &any, const SceneTable &scene)
   parts.all_modes = frame.choice("modes") == "all";
   read_whole_damping(frame, parts);
   if (parts.parts.size() < 2)
-    throw frame.error("has one part only; a frame of one part is written as [frame] cad = ... itself");
+    throw frame.error("has only one part; write a frame of one part as [frame] cad = ...");
   coupling::require_joints(parts);
   if (coupling::kept_interfaces(parts).empty())
-    throw frame.error("has no interface left for the mechanism, as all of them are joined; declare another "
-                      "[frame.part.NAME.interface.NAME], or keep = true at a joint");
+    throw frame.error("has no interface left for the mechanism, because all are joined; declare another "
+                      "[frame.part.NAME.interface.NAME], or set keep = true at a joint");
   return parts;
 }
 

@@ -43,7 +43,7 @@ void add_column(const CsvFile &table, std::size_t at, Layout &layout)
     throw refused("is not known; valid: " + listed(columns));
   const auto index = std::size_t(found - columns.begin());
   if (layout.column[index])
-    throw refused("is there twice");
+    throw refused("is a duplicate");
   layout.column[index] = at;
   if (name.size() == title.size())
     return;
@@ -72,7 +72,7 @@ Layout layout_of(const CsvFile &table, double length)
 void require_finite(const std::array<double, 3> &x, const std::string &place)
 {
   if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
-    throw std::invalid_argument(place + "the place of the node is beyond all numbers; check it and its unit of length");
+    throw std::invalid_argument(place + "the position of the node overflows; check the value and its unit");
 }
 
 TableNode read_node(const CsvFile &table, const CsvFile::Line &line, const Layout &layout, Eigen::Index n)
@@ -82,7 +82,7 @@ TableNode read_node(const CsvFile &table, const CsvFile::Line &line, const Layou
   if (layout.column[0])
     node.motions.name = line.cells[*layout.column[0]];
   if (node.motions.name.find('.') != std::string::npos)
-    throw std::invalid_argument(node.place + "name '" + node.motions.name + "': names have no dots");
+    throw std::invalid_argument(node.place + "name '" + node.motions.name + "': names must not contain dots");
   for (std::size_t d = 0; d < 3; ++d)
     node.motions.position[d] = layout.unit[d] * table.number(line, *layout.column[first_position + d]);
   require_finite(node.motions.position, node.place);
@@ -165,7 +165,7 @@ void place_by_numbers(const CsvFile &table, const Layout &layout, std::map<long,
   for (std::size_t motion = first_motion; motion < number_column; ++motion)
     if (layout.column[motion])
       throw std::invalid_argument(table.place(table.head_number) + "has both 'node' and '" + columns[motion] +
-                                  "'; the rows of a node are known by its number, leave the other out");
+                                  "'; the rows of a node follow from its number, so remove the other column");
   for (const auto &line : table.lines)
   {
     TableNode  read   = read_node(table, line, layout, 0);
@@ -192,7 +192,7 @@ void require_places(const SceneTable &frame, const std::string &key, const std::
     if (places.count(number) == 0)
       without.push_back(number);
   if (!without.empty())
-    throw frame.error(key, "has no place of node " + std::to_string(without.front()) +
+    throw frame.error(key, "has no position of node " + std::to_string(without.front()) +
                                (without.size() > 1 ? " and " + std::to_string(without.size() - 1) + " more" : "") +
                                " of " + std::to_string(nodes.size()) +
                                ", which have rows in the matrices; is it of another model?");
@@ -270,7 +270,7 @@ bool read_named_nodes(const std::string &path, double length, std::map<long, Tab
   const Layout  layout = layout_of(table, length);
   if (!layout.column[number_column])
     throw std::invalid_argument(table.place(table.head_number) +
-                                "has no column 'node' with the numbers by which the rows are known");
+                                "has no column 'node' with the node numbers that identify the rows");
   place_by_numbers(table, layout, nodes, found.places);
   return false;
 }
@@ -335,10 +335,9 @@ FrameNodes read_frame_nodes(const SceneTable &frame, const GivenMatrices &given,
     const CsvFile table  = read_csv(path);
     const Layout  layout = layout_of(table, given.length);
     if (layout.column[number_column])
-      throw std::invalid_argument(
-          table.place(table.head_number) +
-          "has a column 'node', but the matrices do not tell the nodes of their rows; add rows = "
-          "the file that does (.dof, .mapping), or give the columns ux to rz");
+      throw std::invalid_argument(table.place(table.head_number) +
+                                  "has a column 'node', but the matrices do not define the nodes of their rows; add "
+                                  "rows = the file that does (.dof, .mapping), or give the columns ux to rz");
     for (const auto &line : table.lines)
       nodes.all.push_back(read_node(table, line, layout, n));
   }
@@ -357,7 +356,7 @@ fem::Picture read_node_picture(const SceneTable &frame, const FrameNodes &of_fra
   fem::Picture                  picture;
   for (const std::string key : {"triangles", "node_displacements"})
     if (frame.has(key) && nodes.empty())
-      throw frame.error(key, "is about the nodes of a table; add nodes = \"nodes.csv\"");
+      throw frame.error(key, "refers to the nodes of a table; add nodes = \"nodes.csv\"");
   for (const TableNode &node : nodes)
     picture.points.push_back(node.motions.position);
   picture.displacement = displacements_by_rows(nodes, n);
