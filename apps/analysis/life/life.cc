@@ -1,6 +1,8 @@
 #include "apps/analysis/analysis_entry.h"
 #include "apps/analysis/life/life_damage.h"
 #include "apps/analysis/life/life_rules.h"
+#include "apps/analysis/life/life_twins.h"
+
 #include "apps/session/stress_answer.h"
 #include "fem/values/number_text.h"
 
@@ -35,6 +37,15 @@ void show_field(const LifeResult &found, Scenery &scenery)
 class Life : public Analysis
 {
 public:
+  std::vector<CommandOption> options() override
+  {
+    return {
+        {"--life-error", &refine_, "errors of the life by modes and time from two further, finer runs"},
+        {"--life-by", &keys_,
+         "derivatives d ln(life)/d ln(key) by scene parameters, such as parameters.c_P,parameters.s_cl: four further "
+         "runs each"}};
+  }
+
   bool requested(const Scene &scene) const override { return scene.life != nullptr; }
   void check(Session &session) override
   {
@@ -65,7 +76,11 @@ public:
       const auto     before = std::clock();
       LifeResult     found  = life_of(scene, *frame, load);
       found.cpu_s           = double(std::clock() - before) / CLOCKS_PER_SEC;
-      const auto warnings   = life_warnings(scene, found);
+      if (refine_)
+        refine_error(session, found);
+      if (!keys_.empty())
+        found.derivatives = life_derivatives(session, found, keys_);
+      const auto warnings = life_warnings(scene, found);
       result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
       show_field(found, result.scenery);
       result.answers.push_back(as_answer(std::move(found)));
@@ -77,6 +92,10 @@ public:
       return session.interruption() && *session.interruption() ? AnalysisOutcome::interrupted : AnalysisOutcome::failed;
     }
   }
+
+private:
+  bool        refine_ = false;
+  std::string keys_;
 };
 
 } // namespace

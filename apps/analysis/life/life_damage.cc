@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <stdexcept>
 
 namespace gestell::apps
 {
@@ -150,6 +151,7 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
       count_cycles(stress_history(*group.stress, load.states, group.search, at), load.sequence);
   LifePlace place;
   place.of      = group.name;
+  place.point   = at.point;
   place.at      = group.search.position[std::size_t(at.point)];
   place.damage  = damage_of(cycles, group.rule);
   place.life    = repetitions_to_failure(place.damage);
@@ -281,6 +283,20 @@ void add_field(const LifeGroup &group, const ReducedFrame &frame, const LifeLoad
   }
 }
 
+/// The skin away from rigid surfaces and next to them, if it has a curve; the welds.
+std::vector<LifeGroup> groups_of(const Scene &scene, const ReducedFrame &frame, const LifeSkin &skin)
+{
+  const LifeRequest     &life = *scene.life;
+  std::vector<LifeGroup> groups;
+  if (!life.curve.place.empty())
+    groups = {group_of_skin(life, frame, skin, false), group_of_skin(life, frame, skin, true)};
+  for (const WeldRequest &weld : life.welds)
+    groups.push_back(group_of_weld(life, weld, scene, frame, skin));
+  for (LifeGroup &group : groups)
+    group.stress = group.own ? &*group.own : &frame.stress;
+  return groups;
+}
+
 } // namespace
 
 LifeResult life_of(const Scene &scene, const ReducedFrame &frame, const LifeLoad &load)
@@ -288,24 +304,17 @@ LifeResult life_of(const Scene &scene, const ReducedFrame &frame, const LifeLoad
   const LifeRequest &life = *scene.life;
   const LifeSkin     skin = skin_of(frame);
   LifeResult         result;
-  result.measure     = life.measure;
-  result.mean_stress = life.mean_stress;
-  result.miner       = life.miner;
-  result.residue     = life.residue;
-  result.service     = load.service;
-  result.strokes     = load.strokes;
-  result.n_states    = long(load.n_samples());
-  result.step        = load.step;
-  std::vector<LifeGroup> groups;
-  const bool             all = !life.curve.place.empty();
-  if (all)
-    groups = {group_of_skin(life, frame, skin, false), group_of_skin(life, frame, skin, true)};
-  for (const WeldRequest &weld : life.welds)
-    groups.push_back(group_of_weld(life, weld, scene, frame, skin));
-  for (LifeGroup &group : groups)
-    group.stress = group.own ? &*group.own : &frame.stress;
-
-  const OtherLoads others{half_as_many(load), without_high_modes(frame, load.states)};
+  result.measure                      = life.measure;
+  result.mean_stress                  = life.mean_stress;
+  result.miner                        = life.miner;
+  result.residue                      = life.residue;
+  result.service                      = load.service;
+  result.strokes                      = load.strokes;
+  result.n_states                     = long(load.n_samples());
+  result.step                         = load.step;
+  const bool                   all    = !life.curve.place.empty();
+  const std::vector<LifeGroup> groups = groups_of(scene, frame, skin);
+  const OtherLoads             others{half_as_many(load), without_high_modes(frame, load.states)};
   std::vector<std::pair<const LifeGroup *, PointDamage>> worst;
   for (const LifeGroup &group : groups)
     for (const PointDamage &at : worst_of(group, load, result))
@@ -331,6 +340,17 @@ LifeResult life_of(const Scene &scene, const ReducedFrame &frame, const LifeLoad
   if (all)
     add_field(groups.front(), frame, thinned(load, telling_samples(worst, load)), result.field);
   return result;
+}
+
+double damage_at(const Scene &scene, const ReducedFrame &frame, const LifeLoad &load, const LifePlace &place)
+{
+  constexpr double here = 1e-3; // of the frame: the same point of a mesh that moves with a dimension
+  const LifeSkin   skin = skin_of(frame);
+  for (const LifeGroup &group : groups_of(scene, frame, skin))
+    if (const auto at = std::size_t(place.point); group.name == place.of && at < group.search.position.size())
+      if ((group.search.position[at] - place.at).norm() <= here * skin.size)
+        return point_damage(*group.stress, load.states, load.sequence, group.rule, group.search, place.point).damage;
+  throw std::runtime_error("the frame of a further run has other points: its mesh is another one");
 }
 
 std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &found)

@@ -37,6 +37,7 @@ void describe(Visitor &v, const LifeError &x)
 struct LifePlace
 {
   std::string     of;                                  ///< "skin" or the name of a weld
+  int             point     = -1;                      ///< of the skin or the weld
   Eigen::Vector3d at        = Eigen::Vector3d::Zero(); ///< [m]
   Eigen::Vector3d direction = Eigen::Vector3d::Zero(); ///< of the normal stress; zero: it has none
   double          damage    = 0.;
@@ -99,22 +100,40 @@ struct LifeField
   int                                n_states = 0; ///< of which it is made
 };
 
+/// Of the life at the worst place.
+struct LifeDerivative
+{
+  std::string key;
+  double      exponent = 0.; ///< d ln(life) / d ln(key)
+  std::string note;
+};
+
+template <class Visitor>
+void describe(Visitor &v, const LifeDerivative &x)
+{
+  v("key", x.key, "", "key of the scene");
+  v("exponent", x.exponent, "1", "d ln(life) / d ln(key): percent of life for a percent of the key");
+  v("note", x.note, "", "why it is doubtful; empty: it is not");
+}
+
 struct LifeResult
 {
-  DamageRule               rule; ///< of the worst place
-  std::string              measure, mean_stress, miner, residue;
-  std::vector<LifePlace>   places;                     ///< by damage
-  std::optional<LifePlace> beside_rigid;               ///< worst next to rigid surfaces
-  double                   service = 0., strokes = 0.; ///< of one repetition [s]
-  std::vector<LifeCycle>   cycles;                     ///< at the worst place, by damage
-  RangeMeanMatrix          matrix;
-  std::vector<double>      t, stress; ///< of the run of this scene there [s, Pa]
-  double                   closing       = std::numeric_limits<double>::quiet_NaN();
-  double                   stroke_change = std::numeric_limits<double>::quiet_NaN();
-  LifeField                field;
-  int                      n_points = 0, looked_at = 0;
-  long                     n_states = 0;
-  double                   step = 0., cpu_s = 0.;
+  DamageRule                  rule; ///< of the worst place
+  std::string                 measure, mean_stress, miner, residue;
+  std::vector<LifePlace>      places;                     ///< by damage
+  std::optional<LifePlace>    beside_rigid;               ///< worst next to rigid surfaces
+  double                      service = 0., strokes = 0.; ///< of one repetition [s]
+  std::vector<LifeCycle>      cycles;                     ///< at the worst place, by damage
+  RangeMeanMatrix             matrix;
+  std::vector<double>         t, stress; ///< of the run of this scene there [s, Pa]
+  double                      closing       = std::numeric_limits<double>::quiet_NaN();
+  double                      stroke_change = std::numeric_limits<double>::quiet_NaN();
+  LifeField                   field;
+  int                         n_points = 0, looked_at = 0;
+  long                        n_states = 0;
+  double                      step = 0., cpu_s = 0.;
+  bool                        refined = false; ///< errors of modes and time are those of further runs
+  std::vector<LifeDerivative> derivatives{};
 
   const LifePlace *worst() const { return places.empty() ? nullptr : &places.front(); }
 };
@@ -141,6 +160,8 @@ void describe(Visitor &v, const LifeResult &x)
     "damage of the window before, relative difference; null: the run does not contain it");
   v("places", x.places, "", "worst places, by damage");
   v.maybe(x.beside_rigid.has_value(), "beside_rigid", x.beside_rigid, "", "worst place next to rigid surfaces");
+  v("refined", x.refined, "", "whether further runs gave the errors of modes and time, `--life-error`");
+  v.maybe(!x.derivatives.empty(), "derivatives", x.derivatives, "", "`--life-by`");
   v("points", x.n_points, "", "points searched");
   v("evaluated", x.looked_at, "", "points whose cycles had to be counted; bounds exclude the others");
   v("states", x.n_states, "", "states counted");

@@ -1,8 +1,11 @@
 #include "apps/analysis/life/life_charts.h"
 #include "apps/analysis/life/life_result.h"
+#include "apps/output/describe/described_table.h"
 #include "apps/output/values/result.h"
+
 #include "fem/values/number_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gestell::apps
@@ -65,9 +68,10 @@ HtmlTable places_table(const LifeResult &found)
                     "#cycles", "#elements disagree", "#factor on life"});
   const auto add = [&](const LifePlace &x)
   {
-    table.add({x.nearby.empty() ? x.of : "beside " + x.nearby, position_words(x), peak(short_text(x.damage, 3)),
-               life_words(x.strokes), life_words(x.hours), short_text(x.range / mega), short_text(x.mean / mega),
-               short_text(x.cycles), percent(x.disagreement, 2), short_text(x.error.total(), 3)});
+    table.add({x.nearby.empty() ? x.of : "beside " + x.nearby, position_words(x),
+               peak(short_text(x.damage, 3), &x == found.worst()), life_words(x.strokes), life_words(x.hours),
+               short_text(x.range / mega), short_text(x.mean / mega), short_text(x.cycles), percent(x.disagreement, 2),
+               short_text(x.error.total(), 3)});
   };
   for (const LifePlace &x : found.places)
     add(x);
@@ -123,6 +127,9 @@ std::vector<Section> sections_of(const Result &, const LifeResult &found)
   if (const std::string text = steadiness_words(found); !text.empty())
     section.parts.push_back(Section::Sentences{text});
   section.parts.push_back(places_table(found));
+  if (!found.derivatives.empty())
+    section.parts.push_back(table_of(found.derivatives).shown());
+
   section.parts.push_back(Section::Drawing{"life-history", life_history_chart(found), ChartLink::time});
   section.parts.push_back(Section::Picture{"life-matrix", range_mean_picture(found)});
   section.parts.push_back(Section::Drawing{"life-haigh", haigh_chart(found)});
