@@ -79,30 +79,31 @@ void read_stages(const SceneTable &output, Scene &scene)
     throw stages.error("modes", "needs a number between 1 and " + std::to_string(most_ringing_modes));
 }
 
-namespace
+void require_stresses(const SceneTable &asking, const Scene &scene)
 {
-
-constexpr const char *the_stress = "stress"; ///< the stress itself, in addition to names of signals
-
-void require_stresses(const SceneTable &stress, const Scene &scene)
-{
+  const std::string remedy = "; leave [" + asking.path() + "] out";
   switch (scene.frame.source)
   {
   case FrameSource::none:
-    throw stress.error("there is no frame, so that there are no stresses; leave [output.stress] out");
+    throw asking.error("there is no frame, so that there are no stresses" + remedy);
   case FrameSource::matrices:
-    throw stress.error(
+    throw asking.error(
         "a frame given by matrices has no material and no elements, so that there are no stresses; give it by 'cad'");
   case FrameSource::parts:
-    throw stress.error("stresses of a frame of parts are not computed; leave [output.stress] out, or draw the frame in "
-                       "one piece, [frame] cad = ...");
+    throw asking.error("stresses of a frame of parts are not computed" + remedy +
+                       ", or draw the frame in one piece, [frame] cad = ...");
   case FrameSource::reduced_file:
     break; // known when it is read
   case FrameSource::geometry:
     if (!scene.reduction.reduces())
-      throw stress.error("stresses are recovered from the reduced frame; leave out reduction.method = \"none\"");
+      throw asking.error("stresses are recovered from the reduced frame; leave out reduction.method = \"none\"");
   }
 }
+
+namespace
+{
+
+constexpr const char *the_stress = "stress"; ///< the stress itself, in addition to names of signals
 
 void read_instants(const SceneTable &stress, Scene &scene)
 {
