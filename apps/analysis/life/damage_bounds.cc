@@ -33,7 +33,7 @@ UpperLine line_above(const SnCurve &curve, double slope)
 
 /// docs/theory/life.md (9): lines of the pieces; where the curve is their minimum also lines through its knees, and
 /// below a cut-off steeper ones.
-std::vector<UpperLine> upper_lines(const SnCurve &curve, bool cut)
+std::vector<UpperLine> upper_lines(const SnCurve &curve, Miner miner)
 {
   std::vector<UpperLine> lines;
   for (const SnPiece &piece : curve.pieces)
@@ -43,9 +43,14 @@ std::vector<UpperLine> upper_lines(const SnCurve &curve, bool cut)
   for (std::size_t j = 1; j < curve.pieces.size(); ++j)
     if (curve.pieces[j].slope > curve.pieces[j - 1].slope)
       lines.push_back(line_above(curve, 0.5 * (curve.pieces[j - 1].slope + curve.pieces[j].slope)));
-  if (cut && curve.cut_off() > 0.)
-    for (const double more : {1., 3., 8.})
-      lines.push_back(line_above(curve, curve.pieces.back().slope + more));
+  const double q = curve.pieces.back().slope - 1.;
+  if (miner == Miner::elementary || curve.cut_off() == 0. || q == 0.)
+    return lines;
+  for (const double more : {1., 3., 8.})
+  {
+    lines.push_back(line_above(curve, curve.pieces.back().slope + more));
+    lines.back().constant /= miner == Miner::consequent ? 1. + more / q : 1.;
+  }
   return lines;
 }
 
@@ -78,7 +83,7 @@ MatrixXd principal_basis(const MatrixXd &gram, const MatrixXd &centred, MatrixXd
 
 DamageBounds::DamageBounds(const MatrixXd &states, const LoadSequence &load, const DamageRule &rule,
                            const MatrixXd &gram)
-    : rule_(&rule), lines_(upper_lines(rule.curve, rule.miner == Miner::original)), least_(rule.curve.concave())
+    : rule_(&rule), lines_(upper_lines(rule.curve, rule.miner)), least_(rule.curve.concave())
 {
   mean_ = 0.5 * (states.rowwise().maxCoeff() + states.rowwise().minCoeff());
   MatrixXd       components;
@@ -118,47 +123,56 @@ void DamageBounds::measure(const MatrixXd &components, const LoadSequence &load)
 void DamageBounds::divide(const MatrixXd &components, const LoadSequence &load)
 {
   constexpr std::int64_t window = 32; // steps: fewer cost more, in more of them the components change more
-  std::vector<std::array<std::int64_t, 2>> windows; // first and last sample; the last one is the first of the next
-  std::vector<double>                      steps;
   for (const LoadBlock &block : load.blocks)
-  {
-    joints_ += block.repetitions;
     for (std::int64_t first = block.first; first < block.end - 1; first += window)
-    {
-      windows.push_back({first, std::min(first + window, block.end - 1)});
-      steps.push_back(block.repetitions * double(windows.back()[1] - first));
-    }
-  }
-  steps_  = Eigen::Map<const VectorXd>(steps.data(), Index(steps.size()));
-  middle_ = change_ = MatrixXd(components.rows(), Index(windows.size()));
+      windows_.push_back({first, std::min(first + window, block.end - 1), block.repetitions});
+  middle_ = change_ = MatrixXd(components.rows(), Index(windows_.size()));
   for (Index w = 0; w < middle_.cols(); ++w)
   {
-    const auto [first, last] = windows[std::size_t(w)];
-    middle_.col(w)           = components.col((first + last) / 2);
-    const auto inside        = components.middleCols(first, last - first + 1);
-    change_.col(w)           = (inside.colwise() - middle_.col(w)).cwiseAbs().rowwise().maxCoeff();
+    const auto [first, last, repetitions] = windows_[std::size_t(w)];
+    middle_.col(w)                        = components.col((first + last) / 2);
+    const auto inside                     = components.middleCols(first, last - first + 1);
+    change_.col(w)                        = (inside.colwise() - middle_.col(w)).cwiseAbs().rowwise().maxCoeff();
   }
 }
 
-VectorXd DamageBounds::sign_changes(const MatrixXd &parts, const VectorXd &offset) const
+std::vector<std::vector<LoadBlock>> DamageBounds::possible_sign_changes(const MatrixXd &parts, const VectorXd &offset,
+                                                                        const VectorXd &margin) const
 {
-  const MatrixXd value  = (parts * middle_).colwise() + offset;
-  const MatrixXd change = rounded_up * (parts.cwiseAbs() * change_);
-  return ((value.array().abs() > change.array()).select(0., MatrixXd::Ones(value.rows(), value.cols())) * steps_)
-             .array() +
-         joints_;
+  const MatrixXd                      value  = ((parts * middle_).colwise() + offset).cwiseAbs();
+  const MatrixXd                      change = (rounded_up * (parts.cwiseAbs() * change_)).colwise() + margin;
+  std::vector<std::vector<LoadBlock>> possible(std::size_t(parts.rows()));
+  for (Index w = 0; w < value.cols(); ++w)
+    for (Index i = 0; i < value.rows(); ++i)
+      if (value(i, w) <= change(i, w))
+      {
+        auto            &of_scalar = possible[std::size_t(i)];
+        const LoadBlock &window    = windows_[std::size_t(w)];
+        if (!of_scalar.empty() && of_scalar.back().end == window.first)
+          of_scalar.back().end = window.end;
+        else
+          of_scalar.push_back(window);
+      }
+  return possible;
 }
 
-double DamageBounds::of_powers(const Eigen::Ref<const Eigen::ArrayXd> &parts, double factor, double jumps,
-                               double jump) const
+double DamageBounds::of_powers(const Eigen::Ref<const Eigen::ArrayXd> &parts, double factor,
+                               const std::vector<SignJump> &jumps) const
 {
   double least = std::numeric_limits<double>::infinity(), sum = 0.;
   for (Index j = 0; j < powers_.cols(); ++j)
   {
     const auto &[m, constant] = lines_[std::size_t(j)];
-    const double moving       = factor * (parts * powers_.col(j).array()).sum();
-    const double bound        = (std::pow(moving, m) + 0.5 * jumps * std::pow(factor * jump, m)) / constant;
-    least                     = std::min(least, bound);
+    double root               = (parts * powers_.col(j).array()).sum();
+    if (!jumps.empty())
+    {
+      double damage = 0.;
+      for (const SignJump &jump : jumps)
+        damage += 0.5 * jump.count * std::pow(jump.size, m);
+      root = std::pow(2., 1. - 1. / m) * root + std::pow(damage, 1. / m);
+    }
+    const double bound = std::pow(factor * root, m) / constant;
+    least              = std::min(least, bound);
     sum += bound;
   }
   return rounded_up * (least_ ? least : sum);
@@ -169,17 +183,23 @@ double DamageBounds::of_linear(const Eigen::Ref<const Eigen::ArrayXd> &parts, do
   const double factor = rule_->mean_stress.largest_factor(offset + (parts * largest_).sum(), rule_->curve.ratio);
   if (rule_->miner != Miner::elementary && rounded_up * factor * (parts * width_).sum() < rule_->curve.cut_off())
     return 0.;
-  return of_powers(parts, factor, 0., 0.);
+  return of_powers(parts, factor, {});
 }
 
-double DamageBounds::of_signed_norm(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset, double changes) const
+double DamageBounds::peak_of_norm(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset) const
 {
-  const double peak   = offset + (parts * largest_).sum();
+  return rounded_up * (offset + (parts * largest_).sum());
+}
+
+double DamageBounds::of_signed_norm(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset,
+                                    const std::vector<SignJump> &jumps) const
+{
+  const double peak   = peak_of_norm(parts, offset);
   const double factor = rule_->mean_stress.largest_factor(peak, rule_->curve.ratio);
-  const double width  = changes > 0. ? 2. * peak : std::min((parts * width_).sum(), 2. * peak);
+  const double width  = jumps.empty() ? (parts * width_).sum() : 2. * peak;
   if (rule_->miner != Miner::elementary && rounded_up * factor * width < rule_->curve.cut_off())
     return 0.;
-  return of_powers(parts, factor, changes, 2. * peak);
+  return of_powers(parts, factor, jumps);
 }
 
 } // namespace gestell::apps

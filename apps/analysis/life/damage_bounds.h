@@ -16,6 +16,12 @@ struct UpperLine
   double constant = 1.;
 };
 
+struct SignJump
+{
+  double size  = 0.;
+  double count = 0.; ///< in one repetition of the load
+};
+
 /**
  * Principal components c_r(t) of the states of a load about their mean, z(t) = mean + sum_r b_r c_r(t), and what bounds
  * the damage of any linear measure x = a.z, docs/theory/life.md (8).
@@ -40,22 +46,31 @@ public:
    */
   double of_linear(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset) const;
 
-  /// The same for a norm of a stress with a sign that changes at most `changes` times in one repetition of the load;
-  /// `offset` is the norm of the mean.
-  double of_signed_norm(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset, double changes) const;
+  /**
+   * The same for a norm |V| of a stress with a sign, docs/theory/life.md (11).
+   * @param offset  norm of the mean
+   * @param jumps   |V| before and after each change of sign, added
+   */
+  double of_signed_norm(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset,
+                        const std::vector<SignJump> &jumps) const;
+
+  /// Upper bound of the norm of the stress.
+  double peak_of_norm(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset) const;
 
   /**
-   * Upper bound of the changes of sign of scalars x_i = a_i.z in one repetition of the load: none in windows of the
-   * load in which |x| is larger in the middle than all components can change it.
+   * Samples between which scalars x_i = a_i.z may change sign: windows of the load in the middle of which |x| is not
+   * larger than all components can change it and `margin`. Consecutive windows are joined.
    * @param parts   a_i.b_r [scalars x components]
    * @param offset  a_i.mean [scalars]
    */
-  Eigen::VectorXd sign_changes(const Eigen::MatrixXd &parts, const Eigen::VectorXd &offset) const;
+  std::vector<std::vector<LoadBlock>> possible_sign_changes(const Eigen::MatrixXd &parts, const Eigen::VectorXd &offset,
+                                                            const Eigen::VectorXd &margin) const;
 
 private:
   void   measure(const Eigen::MatrixXd &components, const LoadSequence &load);
   void   divide(const Eigen::MatrixXd &components, const LoadSequence &load);
-  double of_powers(const Eigen::Ref<const Eigen::ArrayXd> &parts, double factor, double jumps, double jump) const;
+  double of_powers(const Eigen::Ref<const Eigen::ArrayXd> &parts, double factor,
+                   const std::vector<SignJump> &jumps) const;
 
   const DamageRule      *rule_;
   Eigen::MatrixXd        basis_;
@@ -67,8 +82,7 @@ private:
   Eigen::ArrayXd         width_;        ///< max c_r - min c_r
   Eigen::MatrixXd        middle_;       ///< c_r in the middle of each window [components x windows]
   Eigen::MatrixXd        change_;       ///< max |c_r - middle| in the window
-  Eigen::VectorXd        steps_;        ///< samples of the window times the repetitions of its block
-  double                 joints_ = 0.;  ///< transitions between blocks and repetitions
+  std::vector<LoadBlock> windows_;      ///< samples [first, end], the last one is the first of the next
 };
 
 } // namespace gestell::apps

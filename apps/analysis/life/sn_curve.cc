@@ -11,8 +11,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double megapascal = 1e6; // [Pa]
-constexpr double reference  = 2e6; // cycles of a class, EN 1993-1-9 and EN 13001-3-1
+constexpr double megapascal   = 1e6; // [Pa]
+constexpr double class_cycles = 2e6; // cycles of a class, EN 1993-1-9 and EN 13001-3-1
 
 /// EN 1993-1-9:2005, figures 7.1 and 7.2 [MPa].
 const std::vector<double> &eurocode_classes(StressKind kind)
@@ -106,14 +106,14 @@ SnCurve eurocode_curve(double category, StressKind kind, double gamma)
   require_positive_factor(gamma, "partial factor gamma_Mf");
   const double range = category / gamma;
   SnCurve      curve{"EN 1993-1-9, detail category " + text_of(category / megapascal) + of_kind(kind), {}, {}};
-  const auto   at = [&](double cycles, double slope) { return range * std::pow(reference / cycles, 1. / slope); };
+  const auto   at = [&](double cycles, double slope) { return range * std::pow(class_cycles / cycles, 1. / slope); };
   if (kind == StressKind::direct)
   {
-    curve.pieces = {line_through(reference, range, 3., at(5e6, 3.))};
+    curve.pieces = {line_through(class_cycles, range, 3., at(5e6, 3.))};
     continue_to(curve, 5., 1e8);
   }
   else
-    curve.pieces = {line_through(reference, range, 5., at(1e8, 5.))};
+    curve.pieces = {line_through(class_cycles, range, 5., at(1e8, 5.))};
   return curve;
 }
 
@@ -122,7 +122,7 @@ SnCurve crane_curve(double notch_class, StressKind kind, double gamma)
   require_class(notch_class, crane_classes(), "EN 13001-3-1" + of_kind(kind));
   require_positive_factor(gamma, "specific resistance factor gamma_mf");
   return {"EN 13001-3-1, notch class " + text_of(notch_class / megapascal) + of_kind(kind),
-          {line_through(reference, notch_class / gamma, kind == StressKind::direct ? 3. : 5., 0.)},
+          {line_through(class_cycles, notch_class / gamma, kind == StressKind::direct ? 3. : 5., 0.)},
           {}};
 }
 

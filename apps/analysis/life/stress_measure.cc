@@ -85,7 +85,8 @@ Vector3d plane_normal(const Eigen::Matrix<double, 1, 6> &row)
 
 double signed_von_mises(const coupling::Stress &sigma)
 {
-  return std::copysign(coupling::von_mises(sigma), sigma.head<3>().sum() < 0. ? -1. : 1.);
+  const double sigma_v = coupling::von_mises(sigma);
+  return sigma.head<3>().sum() < -trace_of_rounding * sigma_v ? -sigma_v : sigma_v;
 }
 
 Eigen::Matrix<double, 1, 6> signed_von_mises_row(const coupling::Stress &sigma)

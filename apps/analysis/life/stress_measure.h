@@ -14,7 +14,7 @@ enum class StressMeasure
 {
   normal,           ///< stress across a weld: t.sigma.t, t = normal x weld, in the surface
   shear,            ///< stress along a weld: weld.sigma.t
-  signed_von_mises, ///< von Mises stress with the sign of the trace (hydrostatic stress); zero trace: +
+  signed_von_mises, ///< von Mises stress with the sign of the trace (hydrostatic stress), see signed_von_mises()
   critical_plane    ///< n.sigma.n of the plane n of the largest damage
 };
 
@@ -40,7 +40,11 @@ MeasureRows measure_rows(StressMeasure measure, const SurfaceDirections &at);
 /// n of a row of `critical_plane`: row = (n_x^2, n_y^2, n_z^2, 2 n_x n_y, 2 n_y n_z, 2 n_x n_z).
 Eigen::Vector3d plane_normal(const Eigen::Matrix<double, 1, 6> &row);
 
-/// von Mises with the sign of the trace.
+/// Of the von Mises stress: a trace above -1e-6 sigma_v may be rounding of stresses in single precision, and has the
+/// sign +.
+constexpr double trace_of_rounding = 1e-6;
+
+/// Von Mises stress with the sign of the trace, - if the trace is below -trace_of_rounding times it.
 double signed_von_mises(const coupling::Stress &sigma);
 /// w with w.sigma = signed_von_mises(sigma), its derivative where it has one; zero for a stress without a deviator.
 Eigen::Matrix<double, 1, 6> signed_von_mises_row(const coupling::Stress &sigma);

@@ -26,12 +26,16 @@ constexpr Index points_of_bounds = 256; // multiplied together
 constexpr Index points_of_search = 8;   // evaluated before the next look at the bounds: T x 6 x 8 numbers of stress
 
 /// L with |L sigma| = sigma_v.
-Eigen::Matrix<double, 6, 6> von_mises_norm()
+const Eigen::Matrix<double, 6, 6> &von_mises_norm()
 {
-  Eigen::Matrix<double, 6, 6> L = Eigen::Matrix<double, 6, 6>::Zero();
-  L.topLeftCorner<3, 3>()       = std::sqrt(1.5) * (Eigen::Matrix3d::Identity() - Eigen::Matrix3d::Constant(1. / 3.));
-  L.bottomRightCorner<3, 3>()   = std::sqrt(3.) * Eigen::Matrix3d::Identity();
-  return L;
+  static const Eigen::Matrix<double, 6, 6> norm = []
+  {
+    Eigen::Matrix<double, 6, 6> L = Eigen::Matrix<double, 6, 6>::Zero();
+    L.topLeftCorner<3, 3>()       = std::sqrt(1.5) * (Eigen::Matrix3d::Identity() - Eigen::Matrix3d::Constant(1. / 3.));
+    L.bottomRightCorner<3, 3>()   = std::sqrt(3.) * Eigen::Matrix3d::Identity();
+    return L;
+  }();
+  return norm;
 }
 
 const Row &trace_row()
@@ -89,18 +93,45 @@ public:
 
   const std::vector<Cycle> &cycles() const { return cycles_; }
 
-  /// Changes of sign in one repetition of the load, and one at each transition.
-  double sign_changes(const double *history) const
+  /**
+   * Changes of sign of signed_von_mises(S z), with |L sigma| before and after.
+   * @param within  samples between which it may change sign inside blocks
+   * @param peak    upper bound of |L sigma|
+   */
+  std::vector<SignJump> sign_jumps(const PointStress &S, const std::vector<LoadBlock> &within, double peak) const
   {
-    double changes = 0.;
-    for (const LoadBlock &block : load_.blocks)
+    const VectorXd trace    = (trace_row() * S).transpose();
+    const auto     negative = [&](std::int64_t t, double trace_of_t)
     {
-      std::int64_t inside = 1;
-      for (std::int64_t i = block.first + 1; i < block.end; ++i)
-        inside += (history[i] < 0.) != (history[i - 1] < 0.);
-      changes += block.repetitions * double(inside);
+      if (trace_of_t >= 0. || trace_of_t < -trace_of_rounding * peak)
+        return trace_of_t < 0.;
+      return signed_von_mises(S * states_.col(t)) < 0.;
+    };
+    const PointStress     V = von_mises_norm() * S;
+    std::vector<SignJump> jumps;
+    const auto            join = [&](std::int64_t a, std::int64_t b, double count) {
+      jumps.push_back({(V * states_.col(a)).norm() + (V * states_.col(b)).norm(), count});
+    };
+    VectorXd history;
+    for (const LoadBlock &part : within)
+    {
+      history.noalias() = states_.middleCols(part.first, part.end - part.first + 1).transpose() * trace;
+      bool before       = negative(part.first, history[0]);
+      for (Index i = 1; i < history.size(); ++i)
+        if (negative(part.first + i, history[i]) != before)
+        {
+          before = !before;
+          join(part.first + i - 1, part.first + i, part.repetitions);
+        }
     }
-    return changes;
+    for (std::size_t b = 0; b < load_.blocks.size(); ++b) // to its own begin, and to the next block
+      for (const std::size_t next : {b, (b + 1) % load_.blocks.size()})
+      {
+        const std::int64_t last = load_.blocks[b].end - 1, first = load_.blocks[next].first;
+        if (negative(last, states_.col(last).dot(trace)) != negative(first, states_.col(first).dot(trace)))
+          join(last, first, next == b ? load_.blocks[b].repetitions : 1.);
+      }
+    return jumps;
   }
 
   /// Signed von Mises stress of stresses [samples x 6].
@@ -169,15 +200,19 @@ public:
     if (evaluation_.is_signed())
     {
       MatrixXd trace(points.size(), parts.cols());
-      VectorXd trace_offset(points.size());
+      VectorXd trace_offset(points.size()), peak(points.size());
       for (Index i = 0; i < bound.size(); ++i)
       {
         trace.row(i)    = trace_row() * parts.middleRows<6>(6 * i);
         trace_offset[i] = trace_row() * offset.segment<6>(6 * i);
+        peak[i]         = bounds_.peak_of_norm(norms_of(parts.middleRows<6>(6 * i)),
+                                               (von_mises_norm() * offset.segment<6>(6 * i)).norm());
       }
-      const VectorXd changes = bounds_.sign_changes(trace, trace_offset);
+      const auto within = bounds_.possible_sign_changes(trace, trace_offset, trace_of_rounding * peak);
       for (Index i = 0; i < bound.size(); ++i)
-        bound[i] = of_signed(parts.middleRows<6>(6 * i), offset.segment<6>(6 * i), changes[i]);
+        bound[i] = bounds_.of_signed_norm(
+            norms_of(parts.middleRows<6>(6 * i)), (von_mises_norm() * offset.segment<6>(6 * i)).norm(),
+            evaluation_.sign_jumps(S.middleRows<6>(6 * i), within[std::size_t(i)], peak[i]));
       return bound;
     }
     for (Index i = 0; i < bound.size(); ++i)
@@ -190,11 +225,6 @@ public:
   VectorXd of_rows(const MeasureRows &rows, const MatrixXd &S) const
   {
     return of_rows(rows, S * bounds_.basis(), S * bounds_.mean());
-  }
-
-  double of_signed(const MatrixXd &S, double changes) const
-  {
-    return of_signed(S * bounds_.basis(), S * bounds_.mean(), changes);
   }
 
 private:
@@ -220,10 +250,9 @@ private:
     return bound;
   }
 
-  double of_signed(const PointStress &parts, const coupling::Stress &offset, double changes) const
+  static Eigen::ArrayXd norms_of(const PointStress &parts)
   {
-    static const Eigen::Matrix<double, 6, 6> L = von_mises_norm();
-    return bounds_.of_signed_norm((L * parts).colwise().norm().transpose().array(), (L * offset).norm(), changes);
+    return (von_mises_norm() * parts).colwise().norm().transpose().array();
   }
 
   const PointEvaluation &evaluation_;
@@ -271,25 +300,9 @@ private:
   std::vector<PointDamage> found_, worst_;
 };
 
-/// The points of a signed measure whose sign changes so often that they may exceed `enough`.
-std::vector<int> after_sign_changes(const PointEvaluation &evaluation, const PointBounds &bounds,
-                                    const std::vector<int> &points, double enough)
-{
-  const MatrixXd S = evaluation.matrices(points);
-  MatrixXd       rows(points.size(), S.cols());
-  for (Index i = 0; i < rows.rows(); ++i)
-    rows.row(i) = trace_row() * S.middleRows<6>(6 * i);
-  const MatrixXd   traces = evaluation.histories(rows);
-  std::vector<int> left;
-  for (Index i = 0; i < rows.rows(); ++i)
-    if (bounds.of_signed(S.middleRows<6>(6 * i), evaluation.sign_changes(traces.col(i).data())) > enough)
-      left.push_back(points[std::size_t(i)]);
-  return left;
-}
-
 /// Damage of points; of a critical plane the planes that may exceed `enough`, all without `bounds`.
-std::vector<PointDamage> evaluate(PointEvaluation &evaluation, const PointBounds *bounds,
-                                  const std::vector<int> &points, double enough)
+std::vector<PointDamage> damage_of_points(PointEvaluation &evaluation, const PointBounds *bounds,
+                                          const std::vector<int> &points, double enough)
 {
   std::vector<PointDamage> found;
   if (points.empty())
@@ -361,9 +374,7 @@ WorstPoints worst_points(const coupling::ReducedStress &stress, const MatrixXd &
                  for (const int i : some)
                    if (bound[i] > enough && !ranking.near(i, next))
                      left.push_back(i);
-                 if (evaluation.is_signed() && enough >= 0.)
-                   left = after_sign_changes(evaluation, bounds, left, enough);
-                 ranking.add(evaluate(evaluation, &bounds, left, enough));
+                 ranking.add(damage_of_points(evaluation, &bounds, left, enough));
                  result.looked_at += static_cast<int>(left.size());
                  return true;
                });
@@ -375,7 +386,7 @@ PointDamage point_damage(const coupling::ReducedStress &stress, const MatrixXd &
                          const DamageRule &rule, const DamageSearch &search, int point)
 {
   PointEvaluation evaluation(stress, states, load, rule, search);
-  return evaluate(evaluation, nullptr, {point}, -1.).front();
+  return damage_of_points(evaluation, nullptr, {point}, -1.).front();
 }
 
 VectorXd stress_history(const coupling::ReducedStress &stress, const MatrixXd &states, const DamageSearch &search,

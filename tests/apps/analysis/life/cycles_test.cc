@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace gestell
+namespace gestell::tests
 {
 namespace
 {
@@ -230,4 +230,4 @@ TEST(RangeMeanMatrix, ContainsEveryCycleAndItsDamageOnce)
 }
 
 } // namespace
-} // namespace gestell
+} // namespace gestell::tests

@@ -1,11 +1,11 @@
 // S-N curves at their knees, mean stress along lines of constant R, and the three rules of Miner.
 
 #include "apps/analysis/life/damage.h"
-#include "tests/support/test.h"
+#include "tests/support/refusal.h"
 
 #include <random>
 
-namespace gestell
+namespace gestell::tests
 {
 namespace
 {
@@ -13,19 +13,6 @@ namespace
 using namespace apps;
 
 constexpr double MPa = 1e6;
-
-std::string error_of(const std::function<void()> &call)
-{
-  try
-  {
-    call();
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-  return "";
-}
 
 std::vector<Cycle> random_cycles(int n, double largest, unsigned seed)
 {
@@ -68,15 +55,11 @@ TEST(EurocodeCurve, DividesRangesByThePartialFactor)
 
 TEST(SnCurve, NamesTheNearestClass)
 {
-  EXPECT_THAT(error_of([] { eurocode_curve(75. * MPa, StressKind::direct, 1.); }),
-              ::testing::HasSubstr("nearest one is 71 MPa"));
-  EXPECT_THAT(error_of([] { eurocode_curve(71. * MPa, StressKind::shear, 1.); }),
-              ::testing::HasSubstr("nearest one is 80 MPa"));
-  EXPECT_THAT(error_of([] { crane_curve(70e0, StressKind::direct, 1.); }),
-              ::testing::HasSubstr("nearest one is 28 MPa"))
-      << "Pa for MPa";
-  EXPECT_THAT(error_of([] { eurocode_curve(80. * MPa, StressKind::direct, 0.); }), ::testing::HasSubstr("gamma_Mf"));
-  EXPECT_THAT(error_of([] { fkm_material("wood"); }), ::testing::HasSubstr("grey cast iron"));
+  expect_refusal([] { eurocode_curve(75. * MPa, StressKind::direct, 1.); }, "nearest one is 71 MPa");
+  expect_refusal([] { eurocode_curve(71. * MPa, StressKind::shear, 1.); }, "nearest one is 80 MPa");
+  expect_refusal([] { crane_curve(70e0, StressKind::direct, 1.); }, "nearest one is 28 MPa");
+  expect_refusal([] { eurocode_curve(80. * MPa, StressKind::direct, 0.); }, "gamma_Mf");
+  expect_refusal([] { fkm_material("wood"); }, "grey cast iron");
 }
 
 TEST(CraneCurve, IsOneLine)
@@ -109,10 +92,10 @@ TEST(TableCurve, PassesThroughItsPointsAndMustFall)
   for (const SnPoint &point : points)
     EXPECT_NEAR(curve.damage(point.range) * point.cycles, 1., 1e-12);
   EXPECT_EQ(curve.cut_off(), 60. * MPa);
-  EXPECT_THAT(error_of([] { table_curve({{1e4, 3e8}, {1e6, 3e8}}, 1., {}); }), ::testing::HasSubstr("point 2"));
-  EXPECT_THAT(error_of([] { table_curve({{1e6, 3e8}, {1e4, 1e8}}, 1., {}); }), ::testing::HasSubstr("does not fall"));
-  EXPECT_THAT(error_of([] { table_curve({{1e4, 3e8}}, 1., {}); }), ::testing::HasSubstr("at least two"));
-  EXPECT_THAT(error_of([] { table_curve({{1e4, 3e8}, {2e4, 1e8}}, 1., {}); }), ::testing::HasSubstr("slope"));
+  expect_refusal([] { table_curve({{1e4, 3e8}, {1e6, 3e8}}, 1., {}); }, "point 2");
+  expect_refusal([] { table_curve({{1e6, 3e8}, {1e4, 1e8}}, 1., {}); }, "does not fall");
+  expect_refusal([] { table_curve({{1e4, 3e8}}, 1., {}); }, "at least two");
+  expect_refusal([] { table_curve({{1e4, 3e8}, {2e4, 1e8}}, 1., {}); }, "slope");
 }
 
 /// Range with the ratio R and the amplitude 1.
@@ -201,4 +184,4 @@ TEST(Miner, DividesItsDamageAmongTheCycles)
 }
 
 } // namespace
-} // namespace gestell
+} // namespace gestell::tests

@@ -8,7 +8,7 @@
 
 #include <random>
 
-namespace gestell
+namespace gestell::tests
 {
 namespace
 {
@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double MPa = 1e6;
+constexpr double megapascal = 1e6; // [Pa]
 
 coupling::Stress components(const Eigen::Matrix3d &S)
 {
@@ -140,7 +140,7 @@ struct Plate
       for (int k = 0; k < samples; ++k)
       {
         const double t = double(k % (samples / 2)) / samples;
-        states(j, k)   = 10. * MPa / (1 + j * j) *
+        states(j, k)   = 10. * megapascal / (1 + j * j) *
                        (1. + 2. * std::exp(-6. * t) * std::sin(2. * M_PI * 10. * std::pow(1.6, j) * t + j));
       }
   }
@@ -196,11 +196,12 @@ void expect_the_worst(const WorstPoints &found, const std::vector<PointDamage> &
 /// curve that is not concave.
 std::vector<DamageRule> rules()
 {
-  const MeanStress fkm{MeanStress::Rule::fkm, 0., 0.2}, goodman{MeanStress::Rule::goodman, 600. * MPa, 0.};
-  return {{eurocode_curve(71. * MPa, StressKind::direct, 1.), {}, Miner::original},
-          {crane_curve(80. * MPa, StressKind::direct, 1.), {}, Miner::elementary},
-          {fkm_curve(fkm_material("steel"), 300. * MPa, StressKind::direct, 8.), fkm, Miner::consequent},
-          {table_curve({{1e4, 200. * MPa}, {1e5, 150. * MPa}, {1e7, 20. * MPa}}, 1., -1.), goodman, Miner::elementary}};
+  const MeanStress fkm{MeanStress::Rule::fkm, 0., 0.2}, goodman{MeanStress::Rule::goodman, 600. * megapascal, 0.};
+  return {{eurocode_curve(71. * megapascal, StressKind::direct, 1.), {}, Miner::original},
+          {crane_curve(80. * megapascal, StressKind::direct, 1.), {}, Miner::elementary},
+          {fkm_curve(fkm_material("steel"), 300. * megapascal, StressKind::direct, 8.), fkm, Miner::consequent},
+          {table_curve({{1e4, 200. * megapascal}, {1e5, 150. * megapascal}, {1e7, 20. * megapascal}}, 1., -1.), goodman,
+           Miner::elementary}};
 }
 
 class WorstPointsOf : public ::testing::TestWithParam<StressMeasure>
@@ -274,4 +275,4 @@ TEST(DamageShares, SumToOneAndAreTheDerivativesOfTheDamage)
 }
 
 } // namespace
-} // namespace gestell
+} // namespace gestell::tests
