@@ -11,6 +11,7 @@
 #include "apps/scene/read/frame/read_frame.h"
 #include "apps/scene/read/read_contact.h"
 #include "apps/scene/read/read_function.h"
+#include "apps/scene/read/read_life.h"
 #include "apps/scene/read/read_material.h"
 #include "apps/scene/read/read_motion.h"
 #include "apps/scene/read/read_output.h"
@@ -99,6 +100,10 @@ void add_rest(Tables &tables)
       "Stresses at the skin of a frame from `cad`; an empty table means the largest stress.", stress_keys());
   add("output.stages", "[output.stages]",
       "Stages of the run between events, and identified vibrations of the last one.", stage_keys());
+  add("life", "[life]", "Fatigue of the frame under the motion of the run.", life_keys());
+  add("life.curve", "curve of [life]", "S-N curve.", curve_keys());
+  add("life.weld", "[[life.weld]]", "Weld, or a part of the skin judged by its own stress.", weld_keys());
+  add("life.block", "[[life.block]]", "Further load of the collective.", block_keys());
 }
 
 Tables make_tables()

@@ -7,6 +7,7 @@
 #include "apps/scene/joints/joint_types.h"
 #include "apps/scene/read/frame/node_interfaces.h"
 #include "apps/scene/read/frame/read_frame.h"
+#include "apps/scene/read/read_life.h"
 #include "apps/scene/read/read_output.h"
 #include "apps/scene/read/read_run.h"
 #include "apps/scene/read/read_switches.h"
@@ -354,6 +355,7 @@ Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts sc
   scene.start = read_start(table, names, scene);
   scene.modes = read_modes(table, names, scene);
   read_output(table, scene);
+  read_life(table, scene);
   table.finish();
   parameters.refuse_idle_overrides();
   refuse_rotations_of_nodes(scene);

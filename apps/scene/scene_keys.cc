@@ -45,7 +45,8 @@ const std::vector<Key> &scene_keys()
       one_of("run", "time integration"),
       one_of("start", "initial state"),
       one_of("modes", "modes of the machine"),
-      one_of("output", "output: signals, stresses, intervals")};
+      one_of("output", "output: signals, stresses, intervals"),
+      one_of("life", "fatigue of the frame")};
   return keys;
 }
 

@@ -218,6 +218,20 @@ void add_stresses(Json &shows, const MachineAnimation &machine, const Result &re
       shows.push_back(stress_json(machine, at, "stress-" + std::to_string(k + 1), top, state_at(result, at.t)));
 }
 
+void add_fields(Json &shows, const MachineAnimation &machine, const Result &result)
+{
+  for (const SkinField &field : result.scenery.fields)
+  {
+    Json                      show = still_json("rest", "frame-" + field.id, field.name, machine.at_rest(), 0.);
+    std::vector<std::uint8_t> colours;
+    for (const int point : machine.frame_points())
+      colours.push_back(static_cast<std::uint8_t>(std::clamp(255. * field.shades[std::size_t(point)], 0., 255.)));
+    show.update({{"colours", base64(colours)}, {"scale", field.scale}});
+    show["mark"] = nearest_point(machine.parts().front(), field.mark);
+    shows.push_back(show);
+  }
+}
+
 Json shows_json(const MachineAnimation &machine, const Result &result)
 {
   Json shows = Json::array();
@@ -235,6 +249,7 @@ Json shows_json(const MachineAnimation &machine, const Result &result)
     shows.push_back(still_json("mode", "frame-" + std::to_string(j + 1), mode_name("frame", j, result.frame_modes[j]),
                                machine.frame_mode(result.frame_modes[j].shape), size));
   add_stresses(shows, machine, result);
+  add_fields(shows, machine, result);
   if (!result.run || result.run->picture_states.empty())
     shows.push_back(still_json("rest", "rest", "at rest", machine.at_rest(), size));
   return shows;

@@ -32,6 +32,14 @@ struct ActingForce
   Eigen::Vector3d torque;       ///< [N m] on the body, about this point
 };
 
+/// A number at each point of the frame's skin, for the 3-D view.
+struct SkinField
+{
+  std::string         id, name, scale; ///< scale: what the colours mean
+  std::vector<double> shades;          // [points of the skin] 0 to 1
+  Eigen::Vector3d     mark;            ///< [m] a place that is shown
+};
+
 /// The visible parts of a machine: the skin of its frame, its interfaces and the bodies of its mechanism.
 struct Scenery
 {
@@ -49,6 +57,7 @@ struct Scenery
   std::vector<coupling::DrawnBar>                            bars;
   std::vector<coupling::DrawnPin>                            pins;
   std::vector<DrawnPart>                                     parts; ///< bodies without one are drawn from their sizes
+  std::vector<SkinField>                                     fields;
 
   /// Forces at t [s], q, q' [n] for the forces p [n_u] on the measures of all elements; always the same elements in the
   /// same order.  Empty: not known.

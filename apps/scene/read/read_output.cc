@@ -79,29 +79,30 @@ void read_stages(const SceneTable &output, Scene &scene)
     throw stages.error("modes", "needs a number from 1 to " + std::to_string(most_ringing_modes));
 }
 
-namespace
+void require_stresses(const SceneTable &asking, const Scene &scene)
 {
-
-constexpr const char *the_stress = "stress"; ///< the stress itself, in addition to names of signals
-
-void require_stresses(const SceneTable &stress, const Scene &scene)
-{
+  const std::string remedy = "; remove [" + asking.path() + "]";
   switch (scene.frame.source)
   {
   case FrameSource::none:
-    throw stress.error("there is no frame, so there are no stresses; remove [output.stress]");
+    throw asking.error("there is no frame, so there are no stresses" + remedy);
   case FrameSource::matrices:
-    throw stress.error("a frame given by matrices has no elements, so stresses cannot be computed; give it by 'cad'");
+    throw asking.error("a frame given by matrices has no elements, so stresses cannot be computed; give it by 'cad'");
   case FrameSource::parts:
-    throw stress.error("stresses of a frame of parts are not available; remove [output.stress], or draw the frame in "
-                       "one piece, [frame] cad = ...");
+    throw asking.error("stresses of a frame of parts are not available" + remedy +
+                       ", or draw the frame in one piece, [frame] cad = ...");
   case FrameSource::reduced_file:
     break; // known when it is read
   case FrameSource::geometry:
     if (!scene.reduction.reduces())
-      throw stress.error("stresses need a reduced frame; remove reduction.method = \"none\"");
+      throw asking.error("stresses need a reduced frame; remove reduction.method = \"none\"");
   }
 }
+
+namespace
+{
+
+constexpr const char *the_stress = "stress"; ///< the stress itself, in addition to names of signals
 
 void read_instants(const SceneTable &stress, Scene &scene)
 {

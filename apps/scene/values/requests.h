@@ -328,6 +328,8 @@ struct StageRequest
   bool given() const { return !names.empty(); }
 };
 
+struct LifeRequest; // apps/scene/values/life_request.h
+
 struct ModesRequest
 {
   std::vector<NamedValue>  at;   ///< configuration of the bodies; zero for the rest
@@ -368,6 +370,7 @@ struct Scene
   std::vector<SignalRequest>         signals;
   StressRequest                      stress;
   StageRequest                       stages;
+  std::shared_ptr<const LifeRequest> life;     ///< null: there is no [life]
   std::vector<std::string>           warnings; ///< about valid but suspicious input
 };
 

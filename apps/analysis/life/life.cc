@@ -1,0 +1,115 @@
+#include "apps/analysis/analysis_entry.h"
+#include "apps/analysis/life/life_damage.h"
+#include "apps/analysis/life/life_rules.h"
+#include "apps/analysis/life/life_twins.h"
+
+#include "apps/session/stress_answer.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// Damage over the picture: in colours from a ten-thousandth of the largest.
+void show_field(const LifeResult &found, Scenery &scenery)
+{
+  const double most =
+      found.field.damage.empty() ? 0. : *std::max_element(found.field.damage.begin(), found.field.damage.end());
+  if (!(most > 0.) || found.field.damage.size() != scenery.points.size())
+    return;
+  constexpr double    decades = 4.;
+  std::vector<double> shades;
+  for (const double damage : found.field.damage)
+    shades.push_back(damage > 0. ? std::max(0., 1. + std::log10(damage / most) / decades) : 0.);
+  scenery.fields.push_back(
+      {"damage", "damage",
+       "damage " + short_text(most * std::pow(10., -decades), 2) + " to " + short_text(most, 2) + ", logarithmic",
+       std::move(shades), found.worst()->at});
+}
+
+/// Fatigue of the frame under the motion of a run.
+class Life : public Analysis
+{
+public:
+  std::vector<CommandOption> options() override
+  {
+    return {
+        {"--life-error", &refine_, "errors of the life by modes and time from two further, finer runs"},
+        {"--life-by", &keys_,
+         "derivatives d ln(life)/d ln(key) by scene parameters, such as parameters.c_P,parameters.s_cl: four further "
+         "runs each"}};
+  }
+
+  bool requested(const Scene &scene) const override { return scene.life != nullptr; }
+  void check(Session &session) override
+  {
+    const Scene &scene = session.scene();
+    if (!scene.life)
+      throw std::invalid_argument(scene.file + ": there is no [life]; give it a curve, such as curve = { class = 71 }");
+    const LifeRequest &life = *scene.life;
+    if (!life.curve.place.empty())
+      damage_rule(life, life.curve, StressKind::direct);
+    for (const WeldRequest &weld : life.welds)
+      damage_rule(life, weld.curve.value_or(life.curve), weld.shear ? StressKind::shear : StressKind::direct);
+  }
+  /// A failure leaves the run intact; a run that stopped early has no life.
+  AnalysisOutcome compute(Session &session, Result &result) const override
+  {
+    const Scene &scene = session.scene();
+    if (!result.run->failure.empty() || result.run->interrupted || !scene.life)
+      return AnalysisOutcome::done;
+    session.progress()("life", -1.);
+    const coupling::ReducedFrame *frame = session.machine().machine.model().reduced_frame();
+    if (!frame || frame->stress.empty())
+      throw std::invalid_argument(scene.life->place +
+                                  ": the reduced frame was written without stresses; write it again "
+                                  "by `gestell reduce` of a scene with [life]");
+    try
+    {
+      const LifeLoad load   = life_load(session, *result.run);
+      const auto     before = std::clock();
+      LifeResult     found  = life_of(scene, *frame, load);
+      found.cpu_s           = double(std::clock() - before) / CLOCKS_PER_SEC;
+      if (refine_)
+        refine_error(session, found);
+      if (!keys_.empty())
+        found.derivatives = life_derivatives(session, found, keys_);
+      const auto warnings = life_warnings(scene, found);
+      result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+      show_field(found, result.scenery);
+      result.answers.push_back(as_answer(std::move(found)));
+      return AnalysisOutcome::done;
+    }
+    catch (const std::runtime_error &failure)
+    {
+      result.warnings.push_back("there is no life: " + std::string(failure.what()));
+      return session.interruption() && *session.interruption() ? AnalysisOutcome::interrupted : AnalysisOutcome::failed;
+    }
+  }
+
+private:
+  bool        refine_ = false;
+  std::string keys_;
+};
+
+} // namespace
+
+AnalysisEntry life_analysis()
+{
+  return analysis_entry<Life, LifeResult>(
+      "life", "compute the fatigue damage of the frame and the places where it cracks first",
+      {"gestell life apps/scenes/press_life.toml",
+       "gestell life apps/scenes/press_life.toml --set \"life.curve.class=90\""},
+      {{"life.csv", "worst places with damage and life, with `[life]`", content_of<LifeResult, life_places_csv>},
+       {"life_cycles.csv", "cycles at the worst place, by damage", content_of<LifeResult, life_cycles_csv>},
+       {"life.vtp", "damage and life on the frame in ParaView, as logarithms", content_of<LifeResult, life_vtp>}},
+      "run");
+}
+
+} // namespace gestell::apps

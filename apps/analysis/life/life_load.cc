@@ -1,0 +1,124 @@
+#include "apps/analysis/life/life_load.h"
+
+#include "apps/analysis/life/life_rules.h"
+#include "coupling/frame/stress_field.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using coupling::ReducedFrame;
+
+Eigen::MatrixXd states_between(const Scene &scene, const ReducedFrame &frame, const coupling::RunResult &run,
+                               double begin, double end, std::vector<double> *times = nullptr)
+{
+  constexpr double rounding = 1e-9; // of the interval between states
+  const double     slack    = rounding * scene.run.options.states.step;
+  const auto      &grid     = run.states.grid;
+  const auto       after    = [](const coupling::KeptState &state, double t) { return state.t < t; };
+  const auto       first    = std::lower_bound(grid.begin(), grid.end(), begin - slack, after);
+  const auto       last     = std::lower_bound(first, grid.end(), end + slack, after);
+  Eigen::MatrixXd  states(frame.stress.mean.cols(), last - first);
+  for (auto state = first; state != last; ++state)
+  {
+    states.col(state - first) = coupling::stress_state(frame.stress, state->q, scene.gravity);
+    if (times)
+      times->push_back(state->t);
+  }
+  return states;
+}
+
+/// @param life  of this scene; null: a stroke in its own time
+void add_run(const Scene &scene, const LifeRequest *life, const ReducedFrame &frame, const coupling::RunResult &run,
+             double repetitions, LifeLoad &load)
+{
+  const double          begin = std::max(run.from, scene.run.options.begin), end = scene.run.options.end;
+  const Eigen::MatrixXd states = states_between(scene, frame, run, begin, end, &load.t);
+  const Eigen::Index    n      = load.states.cols();
+  if (states.cols() < 3)
+    throw std::runtime_error("the run of \"" + scene.name + "\" has " +
+                             count_text(std::size_t(states.cols()), "state") + " in " + short_text(end - begin) +
+                             " s: no cycle can be counted; life.step must be shorter");
+  load.states.conservativeResize(states.rows(), n + states.cols());
+  load.states.rightCols(states.cols()) = states;
+  load.sequence.blocks.push_back({n, n + states.cols(), repetitions});
+  load.service += repetitions * (life && life->period > 0. ? life->period : end - begin);
+  load.strokes += repetitions * (life ? life->strokes : 1.);
+}
+
+bool same_frame(const ReducedFrame &a, const ReducedFrame &b)
+{
+  return a.points == b.points && a.stress.mean.rows() == b.stress.mean.rows() &&
+         a.stress.mean.cols() == b.stress.mean.cols() && a.stress.mean == b.stress.mean;
+}
+
+std::string frame_words(const ReducedFrame &frame)
+{
+  return count_text(frame.points.size(), "point") + ", " +
+         count_text(std::size_t(frame.n_interface), "interface coordinate") + ", " +
+         count_text(std::size_t(frame.M.rows() - frame.n_interface), "mode");
+}
+
+/// The run of another scene, with the states and stresses that are needed here.
+void add_block(Session &own, const BlockRequest &block, const ReducedFrame &frame, LifeLoad &load)
+{
+  Variant variant               = Variant::of_file(block.file, {}, own.variant().scripts);
+  Scene   scene                 = variant.scene();
+  scene.frame.geometry.stress   = true;
+  scene.run.options.states.step = load.step;
+  const std::string what        = block.place + ": the scene \"" + scene.name + "\" ";
+  Session           other(std::move(variant), std::move(scene), {own.progress(), own.interruption()});
+  other.check_run();
+  const ReducedFrame *there = other.machine().machine.model().reduced_frame();
+  if (!there || !same_frame(frame, *there))
+    throw std::invalid_argument(what + "has another frame (" + (there ? frame_words(*there) : "none") +
+                                ") than this one (" + frame_words(frame) +
+                                "); let both extend one scene, and change no key of the frame");
+  const Result result = other.run();
+  if (!result.run->failure.empty() || result.run->interrupted)
+    throw std::runtime_error(what + "does not come to its end: " + result.run->failure);
+  add_run(other.scene(), other.scene().life.get(), frame, *result.run, block.repetitions, load);
+}
+
+} // namespace
+
+LifeLoad life_load(Session &session, const coupling::RunResult &run)
+{
+  const Scene        &scene = session.scene();
+  const LifeRequest  &life  = *scene.life;
+  const ReducedFrame &frame = *session.machine().machine.model().reduced_frame();
+  LifeLoad            load;
+  load.step             = scene.run.options.states.step;
+  load.sequence.residue = residue_of(life);
+  add_run(scene, &life, frame, run, life.repetitions, load);
+  const double begin = scene.run.options.begin, length = scene.run.options.end - run.from;
+  load.is_whole = !(run.from > begin);
+  if (!load.is_whole && run.from - length >= begin - load.step)
+    load.before = states_between(scene, frame, run, run.from - length, run.from);
+  for (const BlockRequest &block : life.blocks)
+    add_block(session, block, frame, load);
+  return load;
+}
+
+LifeLoad thinned(const LifeLoad &load, const std::vector<std::int64_t> &chosen)
+{
+  LifeLoad thin;
+  thin.sequence.residue = load.sequence.residue;
+  thin.states.resize(load.states.rows(), Eigen::Index(chosen.size()));
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    thin.states.col(Eigen::Index(k)) = load.states.col(chosen[k]);
+  for (const LoadBlock &block : load.sequence.blocks)
+  {
+    const auto first = std::lower_bound(chosen.begin(), chosen.end(), block.first);
+    const auto end   = std::lower_bound(first, chosen.end(), block.end);
+    thin.sequence.blocks.push_back({first - chosen.begin(), end - chosen.begin(), block.repetitions});
+  }
+  return thin;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "apps/analysis/life/cycles.h"
+#include "apps/scene/values/life_request.h"
+#include "apps/session/session.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// States of the frame during the load, one repetition of which is its runs with their repetitions.
+struct LifeLoad
+{
+  Eigen::MatrixXd     states; ///< (p; g) [n1 + m + 3 x samples], see coupling::stress_state()
+  std::vector<double> t;      ///< [samples] s, of the run of each
+  LoadSequence        sequence;
+  double              service = 0.; ///< [s] of one repetition
+  double              strokes = 0.; ///< of one repetition
+  Eigen::MatrixXd     before; ///< states in the interval before that of the run, as long; empty: the run begins later
+  double              step     = 0.;   ///< [s] between samples
+  bool                is_whole = true; ///< the run from its beginning, not from output.from
+
+  Eigen::Index n_samples() const { return states.cols(); }
+};
+
+/// The load of [life] of a session with its finished run; runs the scenes of its blocks.
+/// @throws std::invalid_argument for a block with another frame, std::runtime_error if one does not come to its end
+LifeLoad life_load(Session &session, const coupling::RunResult &run);
+
+/// Some of its samples, in their order; damage of these is not larger.  @param chosen  ascending, some of each block
+LifeLoad thinned(const LifeLoad &load, const std::vector<std::int64_t> &chosen);
+
+} // namespace gestell::apps

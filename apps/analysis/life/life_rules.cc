@@ -1,0 +1,80 @@
+#include "apps/analysis/life/life_rules.h"
+
+#include "fem/values/number_text.h"
+
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+SnCurve curve_of(const CurveRequest &curve, StressKind kind)
+{
+  constexpr double mega = 1e6; // classes are in MPa
+  if (curve.notch_class)
+    return (curve.standard == "EN 1993-1-9" ? eurocode_curve : crane_curve)(mega * *curve.notch_class, kind,
+                                                                            curve.safety);
+  if (curve.points.empty())
+    return fkm_curve(fkm_material(curve.material), *curve.strength, kind, curve.design_factor * curve.safety);
+  std::vector<SnPoint> points;
+  for (const auto &[cycles, range] : curve.points)
+    points.push_back({cycles, range});
+  return table_curve(points, curve.safety, curve.ratio);
+}
+
+MeanStress effect_of(const LifeRequest &life, const CurveRequest &curve, StressKind kind, bool has_ratio)
+{
+  MeanStress effect;
+  if (life.mean_stress == "none" || !has_ratio)
+    return effect;
+  if (!curve.strength)
+    throw std::invalid_argument("mean_stress = \"" + life.mean_stress +
+                                "\" needs the tensile strength, such as strength = \"490 MPa\"");
+  effect.tensile_strength = *curve.strength;
+  effect.rule             = life.mean_stress == "goodman" ? MeanStress::Rule::goodman : MeanStress::Rule::fkm;
+  if (effect.rule == MeanStress::Rule::fkm)
+    effect.sensitivity = mean_stress_sensitivity(fkm_material(curve.material), *curve.strength, kind);
+  return effect;
+}
+
+} // namespace
+
+DamageRule damage_rule(const LifeRequest &life, const CurveRequest &curve, StressKind kind)
+{
+  try
+  {
+    DamageRule rule;
+    rule.curve       = curve_of(curve, kind);
+    rule.mean_stress = effect_of(life, curve, kind, rule.curve.ratio.has_value());
+    rule.miner       = life.miner == "original"     ? Miner::original
+                       : life.miner == "elementary" ? Miner::elementary
+                                                    : Miner::consequent;
+    require_valid(rule.mean_stress, rule.curve.ratio);
+    return rule;
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(curve.place + ": " + error.what());
+  }
+}
+
+StressMeasure measure_of(const LifeRequest &life)
+{
+  return life.measure == "critical plane" ? StressMeasure::critical_plane : StressMeasure::signed_von_mises;
+}
+
+Residue residue_of(const LifeRequest &life)
+{
+  return life.residue == "half" ? Residue::half : Residue::repeated;
+}
+
+double slope_at(const SnCurve &curve, double range)
+{
+  for (const SnPiece &piece : curve.pieces)
+    if (range >= piece.from)
+      return piece.slope;
+  return curve.pieces.back().slope;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,143 @@
+#include "apps/analysis/life/life_charts.h"
+#include "apps/analysis/life/life_result.h"
+#include "apps/output/describe/described_table.h"
+#include "apps/output/values/result.h"
+
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr double mega = 1e6;
+
+std::string position_words(const LifePlace &x)
+{
+  return "(" + short_text(x.at[0]) + " " + short_text(x.at[1]) + " " + short_text(x.at[2]) + ")";
+}
+
+std::string life_words(double life)
+{
+  return std::isfinite(life) ? short_text(life, 3) : "no end";
+}
+
+/// The worst place in a sentence.
+std::string worst_words(const LifeResult &found)
+{
+  const LifePlace &worst = *found.worst();
+  if (!(worst.damage > 0.))
+    return "No damage: the largest range, " + short_text(worst.range / mega) + " MPa at " + position_words(worst) +
+           (worst.utilisation > 0. ? ", is " + percent(worst.utilisation, 3) + " of the cut-off of the curve." : ".");
+  return "Damage " + short_text(worst.damage, 3) + " in one repetition of the load at " + position_words(worst) +
+         " of " + worst.of + ": " + life_words(worst.life) + " repetitions, " + life_words(worst.strokes) +
+         " strokes or " + life_words(worst.hours) + " h until failure.";
+}
+
+std::string error_words(const LifePlace &worst)
+{
+  return "Error as a factor on life: " + short_text(worst.error.total(), 3) + " (mesh " +
+         short_text(worst.error.mesh, 3) + ", modes " + short_text(worst.error.modes, 3) + ", time " +
+         short_text(worst.error.time, 3) + ").";
+}
+
+std::string rule_words(const LifeResult &found)
+{
+  return "Curve " + found.rule.curve.name + "; " + found.measure + ", mean stress: " + found.mean_stress +
+         ", Palmgren-Miner: " + found.miner + ", residue: " + found.residue + ". " + std::to_string(found.n_states) +
+         " states, " + short_text(found.step, 3) + " s apart, at " + std::to_string(found.n_points) +
+         " points; bounds left " + std::to_string(found.looked_at) + " whose cycles had to be counted.";
+}
+
+std::string steadiness_words(const LifeResult &found)
+{
+  if (std::isfinite(found.stroke_change))
+    return "The damage of the last window and of that before differ by " + percent(found.stroke_change, 2) + ".";
+  if (std::isfinite(found.closing))
+    return "The stress at the end differs from that at the start by " + percent(found.closing, 2) +
+           " of its range; a repetition begins with this jump.";
+  return "";
+}
+
+HtmlTable places_table(const LifeResult &found)
+{
+  HtmlTable  table({"place", "at x, y, z [m]", "#damage", "#strokes", "#hours", "#largest range [MPa]", "#mean [MPa]",
+                    "#cycles", "#elements disagree", "#factor on life"});
+  const auto add = [&](const LifePlace &x)
+  {
+    table.add({x.nearby.empty() ? x.of : "beside " + x.nearby, position_words(x),
+               peak(short_text(x.damage, 3), &x == found.worst()), life_words(x.strokes), life_words(x.hours),
+               short_text(x.range / mega), short_text(x.mean / mega), short_text(x.cycles), percent(x.disagreement, 2),
+               short_text(x.error.total(), 3)});
+  };
+  for (const LifePlace &x : found.places)
+    add(x);
+  if (found.beside_rigid)
+    add(*found.beside_rigid);
+  return table;
+}
+
+HtmlTable shares_table(const LifePlace &worst)
+{
+  HtmlTable table({"part of the damaging ranges", "#share"});
+  for (const auto &[name, share] : worst.shares)
+    table.add({name, percent(share, 3)});
+  return table;
+}
+
+/// The cycles of the largest damage; all of them are in life_cycles.csv.
+HtmlTable cycles_table(const LifeResult &found)
+{
+  HtmlTable             table({"#range [MPa]", "#mean [MPa]", "#count", "#damage", "#from [s]", "#to [s]"});
+  constexpr std::size_t shown = 10;
+  for (std::size_t k = 0; k < std::min(shown, found.cycles.size()); ++k)
+  {
+    const LifeCycle &x = found.cycles[k];
+    table.add({short_text(x.range / mega), short_text(x.mean / mega), short_text(x.count), short_text(x.damage, 3),
+               short_text(x.begin, 6), short_text(x.end, 6)});
+  }
+  return table;
+}
+
+} // namespace
+
+Headline headline_of(const LifeResult &found)
+{
+  const LifePlace *worst = found.worst();
+  if (!worst)
+    return {};
+  return {worst_words(found),
+          {{life_words(worst->strokes), "strokes until failure"},
+           {short_text(worst->error.total(), 3), "factor on life, error"},
+           {short_text(worst->range / mega) + " MPa", "largest range at the worst place"}}};
+}
+
+std::vector<Section> sections_of(const Result &, const LifeResult &found)
+{
+  Section section{"life", "Life of the frame", "Life", Section::Place::results};
+  if (!found.worst())
+    return {};
+  const LifePlace &worst = *found.worst();
+  section.parts.push_back(Section::Sentences{worst_words(found)});
+  if (worst.damage > 0.)
+    section.parts.push_back(Section::Sentences{error_words(worst)});
+  if (const std::string text = steadiness_words(found); !text.empty())
+    section.parts.push_back(Section::Sentences{text});
+  section.parts.push_back(places_table(found));
+  if (!found.derivatives.empty())
+    section.parts.push_back(table_of(found.derivatives).shown());
+
+  section.parts.push_back(Section::Drawing{"life-history", life_history_chart(found), ChartLink::time});
+  section.parts.push_back(Section::Picture{"life-matrix", range_mean_picture(found)});
+  section.parts.push_back(Section::Drawing{"life-haigh", haigh_chart(found)});
+  if (!worst.shares.empty())
+    section.parts.push_back(shares_table(worst));
+  section.parts.push_back(Section::PageTable{cycles_table(found)});
+  section.parts.push_back(Section::Sentences{rule_words(found), false, true});
+  return {section};
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,220 @@
+#include "apps/analysis/life/weld_points.h"
+
+#include "fem/values/number_text.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using Eigen::Vector3d;
+using Triangle = std::array<int, 3>;
+
+Vector3d vector_of(const fem::Vector3 &x)
+{
+  return {x[0], x[1], x[2]};
+}
+
+bool lies_on(const fem::SurfaceSelector &surface, const Vector3d &x, double tolerance)
+{
+  if (surface.plane &&
+      std::abs(vector_of(surface.plane->normal).normalized().dot(x - vector_of(surface.plane->through))) > tolerance)
+    return false;
+  if (surface.cylinder)
+  {
+    const Vector3d axis = vector_of(surface.cylinder->axis).normalized();
+    const double   r    = axis.cross(x - vector_of(surface.cylinder->through)).norm();
+    if (std::abs(r - surface.cylinder->radius) > tolerance)
+      return false;
+  }
+  if (surface.box)
+    for (int d = 0; d < 3; ++d)
+      if (x[d] < surface.box->min[std::size_t(d)] - tolerance || x[d] > surface.box->max[std::size_t(d)] + tolerance)
+        return false;
+  return true;
+}
+
+std::vector<char> points_on(const fem::SurfaceSelector &surface, const LifeSkin &skin)
+{
+  constexpr double  share     = 1e-4; // of the diagonal, as that of selectors
+  const double      tolerance = surface.tolerance.value_or(share * skin.size);
+  std::vector<char> on;
+  for (const Vector3d &x : skin.position)
+    on.push_back(lies_on(surface, x, tolerance));
+  return on;
+}
+
+/// Triangles with all corners on a surface.
+std::vector<Triangle> triangles_on(const std::vector<char> &on, const LifeSkin &skin)
+{
+  std::vector<Triangle> found;
+  for (const Triangle &triangle : skin.triangles)
+    if (std::all_of(triangle.begin(), triangle.end(), [&](int i) { return on[std::size_t(i)]; }))
+      found.push_back(triangle);
+  return found;
+}
+
+/// Mean normal and mean offset of the centroids of the triangles at a point; none: it has no triangle there.
+struct Corner
+{
+  Vector3d normal = Vector3d::Zero(), inwards = Vector3d::Zero();
+};
+std::optional<Corner> corner_at(int point, const std::vector<Triangle> &triangles, const LifeSkin &skin)
+{
+  Corner corner;
+  for (const Triangle &triangle : triangles)
+    if (std::find(triangle.begin(), triangle.end(), point) != triangle.end())
+    {
+      corner.normal += skin.normal(triangle);
+      for (const int i : triangle)
+        corner.inwards += skin.position[std::size_t(i)] - skin.position[std::size_t(point)];
+    }
+  if (corner.normal.norm() == 0.)
+    return {};
+  corner.normal.normalize();
+  return corner;
+}
+
+/// A stress as a weighted sum of those at points.
+using Weights = std::vector<std::pair<int, double>>;
+
+/// Adds the point of a triangle below y; false: no triangle is there.
+bool add_stress_at(const Vector3d &y, double factor, double nearest, const std::vector<Triangle> &triangles,
+                   const LifeSkin &skin, Weights &weights)
+{
+  constexpr double rounding = 1e-6; // of barycentric coordinates on a common side
+  for (const Triangle &triangle : triangles)
+  {
+    const Vector3d  n = skin.normal(triangle);
+    const Vector3d &a = skin.position[std::size_t(triangle[0])];
+    if (std::abs(n.dot(y - a)) > nearest * n.norm())
+      continue;
+    const Vector3d ab = skin.position[std::size_t(triangle[1])] - a, ac = skin.position[std::size_t(triangle[2])] - a;
+    const double   v = (y - a).cross(ac).dot(n) / n.squaredNorm(), w = ab.cross(y - a).dot(n) / n.squaredNorm();
+    if (std::min({v, w, 1. - v - w}) < -rounding)
+      continue;
+    weights.insert(weights.end(),
+                   {{triangle[0], factor * (1. - v - w)}, {triangle[1], factor * v}, {triangle[2], factor * w}});
+    return true;
+  }
+  return false;
+}
+
+double factor_at_zero(const std::vector<double> &distances, std::size_t k)
+{
+  double factor = 1.;
+  for (std::size_t j = 0; j < distances.size(); ++j)
+    if (j != k)
+      factor *= distances[j] / (distances[j] - distances[k]);
+  return factor;
+}
+
+struct WeldPoint
+{
+  Weights           weights;
+  int               point;
+  SurfaceDirections directions;
+};
+
+WeldPoints points_of(const std::vector<WeldPoint> &chosen, const coupling::ReducedStress &stress, const LifeSkin &skin)
+{
+  WeldPoints found;
+  found.stress.mean = Eigen::MatrixXf::Zero(6 * Eigen::Index(chosen.size()), stress.mean.cols());
+  for (const WeldPoint &one : chosen)
+  {
+    auto rows = found.stress.mean.middleRows<6>(6 * Eigen::Index(found.skin.size()));
+    for (const auto &[i, weight] : one.weights)
+      rows += float(weight) * stress.mean.middleRows<6>(6 * Eigen::Index(i));
+    found.stress.point.push_back(int(found.skin.size()));
+    found.stress.nearby.push_back(-1);
+    found.position.push_back(skin.position[std::size_t(one.point)]);
+    found.directions.push_back(one.directions);
+    const auto less = [](const auto &a, const auto &b) { return std::abs(a.second) < std::abs(b.second); };
+    found.skin.push_back(std::max_element(one.weights.begin(), one.weights.end(), less)->first);
+  }
+  return found;
+}
+
+SurfaceDirections across(const Vector3d &normal, const Vector3d &direction)
+{
+  return {normal, normal.cross(direction).normalized()};
+}
+
+std::vector<WeldPoint> area(const WeldRequest &weld, const std::vector<char> &on, const coupling::ReducedStress &stress,
+                            const LifeSkin &skin)
+{
+  std::vector<WeldPoint> chosen;
+  for (std::size_t i = 0; i < on.size(); ++i)
+    if (const Vector3d &normal = skin.directions[i].normal; on[i] && stress.nearby[i] < 0)
+    {
+      if (weld.direction && normal.cross(vector_of(*weld.direction)).norm() == 0.)
+        continue;
+      chosen.push_back(
+          {{{int(i), 1.}}, int(i), weld.direction ? across(normal, vector_of(*weld.direction)) : skin.directions[i]});
+    }
+  return chosen;
+}
+
+std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vector<char>> &on, const LifeSkin &skin)
+{
+  std::vector<WeldPoint> chosen;
+  const auto             first = triangles_on(on[0], skin), second = triangles_on(on[1], skin);
+  for (std::size_t i = 0; i < on[0].size(); ++i)
+  {
+    const auto here  = on[0][i] && on[1][i] ? corner_at(int(i), first, skin) : std::nullopt;
+    const auto there = here ? corner_at(int(i), second, skin) : std::nullopt;
+    if (!there)
+      continue;
+    Vector3d direction = here->normal.cross(there->normal).cross(here->normal).normalized();
+    if (weld.direction)
+      direction = vector_of(*weld.direction);
+    if (direction.dot(here->inwards) < 0.)
+      direction = -direction;
+    Weights weights{{int(i), 1.}};
+    if (weld.thickness > 0.)
+    {
+      weights.clear();
+      bool reaches = true;
+      for (std::size_t k = 0; k < weld.distances.size() && reaches; ++k)
+        reaches = add_stress_at(skin.position[i] + weld.distances[k] * weld.thickness * direction,
+                                factor_at_zero(weld.distances, k), 0.5 * weld.thickness, first, skin, weights);
+      if (!reaches)
+        continue;
+    }
+    chosen.push_back({std::move(weights), int(i), across(here->normal, direction)});
+  }
+  return chosen;
+}
+
+} // namespace
+
+WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem::SurfaceSelector> &surfaces,
+                       const coupling::ReducedStress &stress, const LifeSkin &skin)
+{
+  std::vector<std::vector<char>> on;
+  std::string                    counts;
+  for (const std::string &name : weld.surfaces)
+  {
+    on.push_back(points_on(surfaces.at(name), skin));
+    counts += (counts.empty() ? "'" : ", '") + name + "' has " +
+              count_text(std::size_t(std::count(on.back().begin(), on.back().end(), 1)), "point");
+  }
+  const std::vector<WeldPoint> chosen = on.size() == 1 ? area(weld, on[0], stress, skin) : line(weld, on, skin);
+  if (chosen.empty())
+    throw std::invalid_argument(
+        weld.place + ": the weld '" + weld.name + "' matches no point of the skin (" + counts + "); " +
+        (on.size() == 1        ? "name a surface whose edges are not all there is of it"
+         : weld.thickness > 0. ? "name two surfaces that meet, of which the first reaches " +
+                                     short_text(1e3 * weld.distances.back() * weld.thickness) + " mm beyond the line"
+                               : "name two surfaces that meet"));
+  return points_of(chosen, stress, skin);
+}
+
+} // namespace gestell::apps

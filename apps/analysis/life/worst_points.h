@@ -1,0 +1,77 @@
+#pragma once
+
+#include "apps/analysis/life/damage.h"
+#include "apps/analysis/life/stress_measure.h"
+#include "coupling/frame/reduced_stress.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Which points, how many of the worst, and which scalar of their stresses.
+struct DamageSearch
+{
+  StressMeasure                  measure = StressMeasure::critical_plane;
+  std::vector<SurfaceDirections> directions; ///< [points] or empty: not known
+  std::vector<char>              counts;     ///< [points] included in the search
+  int                            worst    = 1;
+  double                         distance = 0.; ///< [m] between any two of the worst points, see `position`
+  std::vector<Eigen::Vector3d>   position;      ///< [points], needed for a distance > 0
+  double                         factor = 1.;   ///< on stresses (hot spot, safety), > 0
+};
+
+struct PointDamage
+{
+  int                         point  = -1;
+  double                      damage = 0.; ///< of one repetition of the load
+  Eigen::Matrix<double, 1, 6> row =
+      Eigen::Matrix<double, 1, 6>::Zero(); ///< of a linear measure, of `critical_plane` the worst
+};
+
+struct WorstPoints
+{
+  std::vector<PointDamage> worst; ///< by descending damage, then ascending point; fewer than asked if there are no more
+  int                      looked_at = 0; ///< points whose cycles were counted
+};
+
+/**
+ * The points of the largest damage, exact, without counting the cycles of all points.
+ *
+ * For one slope m, D_m = sum_k n_k r_k^m to the power 1/m is a seminorm of the history (docs/theory/life.md (6)), so
+ * that with principal components c_r(t) of the states, z(t) = sum_r b_r c_r(t),
+ *
+ *     D_m(w.S_i z)^(1/m)  <=  sum_r |w.S_i b_r| D_m(c_r)^(1/m).
+ *
+ * Points are evaluated in the order of these bounds until the next bound is at most the damage of the last of the worst
+ * found.  Greedy with a distance: the worst, then the worst at least `distance` from those chosen, and so on.
+ *
+ * @param states  (p; g) [n1 + m + 3 x samples of `load`], finite
+ * @throws std::invalid_argument: sizes, directions missing
+ */
+WorstPoints worst_points(const coupling::ReducedStress &stress, const Eigen::MatrixXd &states, const LoadSequence &load,
+                         const DamageRule &rule, const DamageSearch &search);
+
+/// Damage of one point by counting all its cycles; the measure of reference for worst_points.
+PointDamage point_damage(const coupling::ReducedStress &stress, const Eigen::MatrixXd &states, const LoadSequence &load,
+                         const DamageRule &rule, const DamageSearch &search, int point);
+
+/// History of the measure at a point [samples]; of `critical_plane` on the plane of `at.row`.
+Eigen::VectorXd stress_history(const coupling::ReducedStress &stress, const Eigen::MatrixXd &states,
+                               const DamageSearch &search, const PointDamage &at);
+
+/**
+ * Part of each coordinate of the states in the damage at a point [n1 + m + 3]: its part in the range of each cycle,
+ * weighted by the cycle's damage,
+ *
+ *     s_j = sum_k (D_k / D) a_j (z_j(end_k) - z_j(begin_k)) / (x(end_k) - x(begin_k)),   sum_j s_j = 1.
+ *
+ * A negative part relieves.  For a single slope without mean effect d ln D / d ln a_j = m s_j.  Zero without damage.
+ */
+Eigen::VectorXd damage_shares(const coupling::ReducedStress &stress, const Eigen::MatrixXd &states,
+                              const LoadSequence &load, const DamageRule &rule, const DamageSearch &search,
+                              const PointDamage &at);
+
+} // namespace gestell::apps
