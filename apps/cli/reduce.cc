@@ -58,7 +58,7 @@ void print_frame(const FrameAnswer &answer)
 {
   const coupling::ReducedFrame &frame = answer.frame;
   std::cout
-      << (answer.from_cache ? "reduced frame from the cache\n" : "reduced frame created\n") << "  coordinates   "
+      << (answer.from_cache ? "reduced frame from the cache\n" : "reduced frame created\n") << "  DOFs          "
       << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
       << "  static load on internal DOFs not represented by the modes: " << 100. * frame.static_residual
       << " % (by deflection energy; exact at the interface; it matters under quick accelerations of the frame; "

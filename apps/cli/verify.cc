@@ -194,7 +194,8 @@ Command verify_command()
   return {
       "verify",
       "compute reference cases and compare them with expected values",
-      {"gestell verify --all", "gestell verify my_cases.toml", "gestell verify \"rod force after the cutting shock\""},
+      {"gestell verify --all", "gestell verify my_cases.toml",
+       "gestell verify \"rod force after the snap-through shock\""},
       CommandInput::none,
       {{"CASE", &own->cases, "case files (.toml), or names of shipped cases and files (default: all except long ones)"},
        {"-o,--output", &own->folder, "folder for the manual (default results/verification)"},

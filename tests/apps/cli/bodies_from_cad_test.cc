@@ -110,7 +110,7 @@ TEST(BodyFromCad, SliderAndPointTakeTheMassOfAllSolids)
   EXPECT_NEAR(two.body("type = \"point\"\nmaterial = { E = 1e9, nu = 0.3, rho = 1000 }\n").mass, 4.8, 1e-8);
 }
 
-TEST(BodyFromCad, ADensityNoSolidHasIsRefusedAsAPlainNumberAndElseWarnedOf)
+TEST(BodyFromCad, ADensityNoSolidHasIsRefusedAsAPlainNumberAndElseGivesAWarning)
 {
   const Drawing     drawing(cuboid);
   const std::string point = "cad = \"part.geo\"\ntype = \"point\"\n";
@@ -124,7 +124,7 @@ TEST(BodyFromCad, ADensityNoSolidHasIsRefusedAsAPlainNumberAndElseWarnedOf)
   EXPECT_TRUE(drawing.scene(point + "density = 7850\n").warnings.empty());
 }
 
-TEST(BodyFromCad, WhatIsMissingContradictsOrIsNoSolidIsRefused)
+TEST(BodyFromCad, WhatIsMissingContradictsOrIsNotASolidIsRefused)
 {
   const Drawing     drawing(cuboid);
   const std::string cad   = "cad = \"part.geo\"\ntype = \"planar\"\nnormal = [0, 1, 0]\n",

@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, TableForces,
                                            Settings{"run.method=exact", "run.force=average", "run.step=0.1 ms"},
                                            Settings{"run.method=newmark", "run.step=0.1 ms"}));
 
-TEST(TableForce, IsTakenAtTheBeginOfTheRunByASteadyStart)
+TEST(TableForce, IsTakenAtTheBeginningOfTheRunByASteadyInitialState)
 {
   // 5 N at 0.5 s stretch the spring by 25 mm; there the joint sticks and carries nothing yet, 1 N at the end.
   const SceneRun motion =

@@ -77,7 +77,7 @@ TEST(SceneFrame, DampingByModeAndByFrequencyIsKeptAsItIsGiven)
   EXPECT_EQ(table, (std::vector<std::pair<double, double>>{{20., 0.01}, {1000., 0.03}}));
 }
 
-TEST(SceneFrame, AMaterialNoSolidHasIsTakenWithItsUnitAndWarnedOf)
+TEST(SceneFrame, AMaterialNoSolidHasIsTakenWithItsUnitAndGivesAWarning)
 {
   const auto scene = scene_of(cad_scene("\"steel\"", "{ E = \"0.5 MPa\", nu = 0.45, rho = 1100 }"));
   ASSERT_EQ(scene.warnings.size(), 1u);
@@ -103,7 +103,7 @@ TEST(Scene, OfNothingIsRefusedWhenItIsBuilt)
                         "has no moving part; declare a [frame]");
 }
 
-TEST(Scene, WithGravityInAnotherUnitIsWarnedOf)
+TEST(Scene, WithGravityInAnotherUnitGivesAWarning)
 {
   const auto scene = scene_of(small_scene(), {"gravity=[0, 0, -9810]"});
   ASSERT_EQ(scene.warnings.size(), 1u);

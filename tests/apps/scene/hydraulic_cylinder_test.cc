@@ -128,7 +128,7 @@ TEST(HydraulicCylinder, AValveDividesThePressureByItsFlow)
 }
 
 // An arm on a hinge, held by a cylinder between two turning bodies: joints and states without mass together.
-TEST(HydraulicCylinder, HoldsAJointedArmFromAStaticStartOn)
+TEST(HydraulicCylinder, HoldsAJointedArmFromAStaticInitialStateOn)
 {
   const std::string arm =
       "gravity = [0, 0, -10]\n" + planar_body("arm", "300 kg", "90 kg m^2", "['1 m', 0, 0]") +
@@ -171,7 +171,7 @@ double warned_at(const SceneRun &motion, const std::string &what)
 }
 
 // x = v/w sin w t; chamber A of 0.2 m is without pressure at x = 0.2 m (exp(p_0/K) - 1).
-TEST(HydraulicCylinder, CavitationIsWarnedOfWithItsTime)
+TEST(HydraulicCylinder, CavitationGivesAWarningWithItsTime)
 {
   const std::string start = "pressure_a = \"10 bar\"\npressure_b = \"200 bar\"\nflow = 0\n[start]\nrule = \"given\"\n"
                             "v = { slide = \"80 mm/s\" }\n[element.weight]\ntype = \"force\"\nfrom = \"slide\"\n"
@@ -185,7 +185,7 @@ TEST(HydraulicCylinder, CavitationIsWarnedOfWithItsTime)
 }
 
 // 0.12 m/s from the middle: chamber B ends at 0.41667 m, and the last hundredth of both columns is 6.17 mm.
-TEST(HydraulicCylinder, TheEndOfItsStrokeIsWarnedOfWithItsTime)
+TEST(HydraulicCylinder, TheEndOfItsStrokeGivesAWarningWithItsTime)
 {
   const std::string flow   = "pressure_a = \"60 bar\"\npressure_b = \"100 bar\"\nflow = \"240 cm^3/s\"\n[start]\n"
                              "v = { slide = \"120 mm/s\" }\n";

@@ -104,7 +104,7 @@ TEST(JointsAcrossPlanes, HoldInEveryDirectionOrAreRefused)
   EXPECT_GT(held, 60);
 }
 
-TEST(JointsAcrossPlanes, AGapThatNoBodyCanCloseIsToldWithItsSize)
+TEST(JointsAcrossPlanes, AGapThatNoBodyCanCloseIsReportedWithItsSize)
 {
   const Kind &planar = kinds[6], &rotor = kinds[1], &ground = kinds[0];
   for (const auto &[a, b] :
@@ -144,7 +144,7 @@ TEST(JointsAcrossPlanes, ABodyHoldsInItsPlaneWhatWouldLeaveIt)
 }
 
 // Described where the pin does not move across, the joint holds it there all the same: a crank on a slide locks.
-TEST(JointsAcrossPlanes, ADirectionThatIsIdleAsDescribedIsHeld)
+TEST(JointsAcrossPlanes, ADirectionThatIsIdleInTheReferenceConfigurationIsHeld)
 {
   const std::string crank = rotor_body("crank", "0.1", "[0, 1, 0]") + slider_body("slide", "1", "[1, 0, 0]") +
                             revolute("pin", "crank", "slide", "[0, 0, 0.1]");

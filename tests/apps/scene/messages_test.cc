@@ -92,7 +92,7 @@ TEST(Messages, PointToTheJointThatStaysOpen)
 }
 
 // What is typed without quotes is no TOML; the line is shown as it must be.
-TEST(Messages, SaysWhatALineThatIsNoTomlShouldBe)
+TEST(Messages, SaysWhatALineThatIsNotTomlShouldBe)
 {
   const auto expect = [](const std::string &line, const std::string &hint)
   { expect_complaint("name = \"a\"\n" + line + "\n", "scene.toml:2: is not TOML here: " + hint); };
@@ -157,7 +157,7 @@ TEST(Messages, AnUnknownSignalIsAnsweredInALine)
   EXPECT_NE(part.find("did you mean one of 'hinge."), std::string::npos) << part;
 }
 
-TEST(Messages, AnElementOnABodyIsToldItsKey)
+TEST(Messages, AnElementOnABodyNamesItsKey)
 {
   expect_complaint(rotor(1., "1 s") + "[element.f]\ntype = \"force\"\non = \"shaft\"\nconstant = \"1 N m\"\n",
                    "on: 'shaft' is not a measure; a body or an interface is named by `from`");

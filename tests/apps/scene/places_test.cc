@@ -75,7 +75,7 @@ TEST(Places, AThrustTurnsWithItsBody)
 }
 
 // A spring between places acts as one on the measure of the two, less what that is as described.
-TEST(Places, ASpringBetweenPlacesIsZeroAsDescribed)
+TEST(Places, ASpringBetweenPlacesIsZeroInTheReferenceConfiguration)
 {
   const std::string spring = "type = \"spring-damper\"\nstiffness = 50\ndamping = 2\n";
   const auto        places =

@@ -191,7 +191,7 @@ TEST(Quantity, AWrongDimensionSaysWhatIsNeededAndWhatCame)
   expect_words(quantity_complaint("3 mm", kind::angular_speed), "an angular speed");
 }
 
-TEST(Quantity, TurnsAndRadiansPerSecondAreToldApart)
+TEST(Quantity, TurnsAndRadiansPerSecondAreDistinguished)
 {
   expect_words(quantity_complaint("5 Hz", kind::angular_speed), "turns");
   expect_words(quantity_complaint("30 rad/s", kind::frequency), "radians");
@@ -254,7 +254,7 @@ TEST(Quantity, TurnsOfAShaftTimesARatioOfLengthsAreTurns)
   expect_words(quantity_complaint("(600 rpm)*pi*80 mm/(200 mm)", kind::angular_speed), "remove pi");
 }
 
-TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsTold)
+TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsReported)
 {
   EXPECT_NEAR(read("(1500 rpm)/(50 rad/s)").value, pi, 1e-14); // a ratio of speeds
   EXPECT_NEAR(read("(1500 rpm)/(500/min)").value, 3., 1e-14);

@@ -19,7 +19,7 @@ std::string words_of(const std::string &scene)
 
 // A closed chain in the plane, in which one joint closes twice, one in space whose rigid bodies have six equations of
 // their own, and a crane: lift and pitch of the chassis, two swings of the load.  A joint that yields holds nothing.
-TEST(SceneSummary, CountsTheFreedomsOfAMechanism)
+TEST(SceneSummary, CountsTheDegreesOfFreedomOfAMechanism)
 {
   EXPECT_NE(words_of("double_four_bar.toml").find("mechanism on a fixed frame: 1 DOF"), std::string::npos);
   EXPECT_NE(words_of("spatial_crank_rocker.toml").find("mechanism on a fixed frame: 1 DOF"), std::string::npos);

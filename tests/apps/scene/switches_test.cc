@@ -234,7 +234,7 @@ TEST(Switches, OfTheTimeOfTheStartAreMeant)
 }
 
 // Set to 40 N within 0.2 s while it is off, from 0.3 s on; on at 0.4 s, half way up: 25 N, and at 0.5 s 40 N.
-TEST_P(Switches, GiveOrdersToWhatIsOff)
+TEST_P(Switches, GiveCommandsToWhatIsOff)
 {
   const auto motion = run(slider(2., "1 s") + "F = \"push.force\"\n" + push + "initially = \"off\"\n" +
                               switched("level", "t above 0.3 s", "push set", {{"to", "40 N"}, {"rate", "150 N/s"}}) +

@@ -250,7 +250,7 @@ rows = { ux = 2 }
 
 // The natural spline through a step of height 1 swings by 7 to 9 % beyond its level parts; the same rise in a
 // sine has its extremes where the steps change their sign, and no level part.
-TEST(Cam, TableWhoseSplineSwingsBeyondItsRowsIsWarnedOf)
+TEST(Cam, TableWhoseSplineSwingsBeyondItsRowsGivesAWarning)
 {
   const auto warnings = [&](const std::string &rows, const std::string &period = "0")
   {
@@ -331,7 +331,7 @@ TEST(Cam, AKinkOfAPeriodicCourseIsRefusedWithItsPlace)
   EXPECT_NE(short_of.find("the value jumps from 0.00120615 to 0 at 170 deg (if_1_"), std::string::npos) << short_of;
 }
 
-TEST(MeasureJoint, BadInputIsToldWithItsPlace)
+TEST(MeasureJoint, BadInputIsReportedWithItsPlace)
 {
   const auto        joint = [](const std::string &keys) { return shaft_and_slide + "[joint.j]\n" + keys; };
   const std::string cam   = "type = \"position function\"\nfrom = \"shaft\"\n";

@@ -105,7 +105,7 @@ bool warned(const SceneRun &motion, const std::string &name)
   return false;
 }
 
-TEST(StartInsideAContact, IsWarnedOf)
+TEST(StartInsideAContact, GivesAWarning)
 {
   EXPECT_TRUE(warned(run(with(ball, "[start]\n", start("q = { 'ball.uz' = '-102 mm' }")), {"run.end=1 ms"}), "floor"));
   EXPECT_FALSE(warned(run(ball, {"run.end=1 ms"}), "floor"));

@@ -90,7 +90,7 @@ TEST(NoNumber, ALawWithNoneFromATimeOnEndsEveryRunThere)
 }
 
 /// Behind an event, in the branch that it chooses.
-TEST(NoNumber, ALawWithNoneBehindAnEventEndsEveryRunThere)
+TEST(NoNumber, ALawWithNoneAfterAnEventEndsEveryRunThere)
 {
   expect_end_before(0.05, slide("if(t < 50 ms, 1 N, 1 N*log(-1 - t/s))"));
 }

@@ -101,7 +101,7 @@ TEST(Stages, OfASoftlyBrakedCraneRingInItsLinearisedModes)
   }
 }
 
-TEST(Stages, OfTyresThatLiftOffRingBehindTheLastTouchDown)
+TEST(Stages, OfTyresThatLiftOffRingAfterTheLastTouchDown)
 {
   const apps::Result result = crane_run({}, "crane_minimal_lift.toml");
   ASSERT_EQ(stages_of(result).lift_offs.size(), 3u);
@@ -110,7 +110,7 @@ TEST(Stages, OfTyresThatLiftOffRingBehindTheLastTouchDown)
   EXPECT_EQ(stages_of(result).ringing.begin, stages_of(result).lift_offs[2].end);
 }
 
-TEST(Stages, TellHowFarALimitWasMissed)
+TEST(Stages, ReportHowFarALimitWasMissed)
 {
   const apps::Result result = crane_run({"switch.limiter.above=\"900 kN\"", "run.end=\"1 s\""});
   for (const char *words :

@@ -120,7 +120,7 @@ TEST(StudyRuns, AreTheSameSideBySideInSharesAndInOneProcess)
   EXPECT_EQ(merged.table.n_done(), 9);
 }
 
-TEST(StudyRuns, ThatFailAreToldAndTheOthersGoOn)
+TEST(StudyRuns, ThatFailAreReportedAndTheOthersGoOn)
 {
   const Folder      folder("study_failed");
   const StudyAnswer answer = answered(small(folder), folder, {"outputs.root=\"sqrt(0.5 mm - s_cl)\""});
@@ -166,7 +166,7 @@ TEST(StudyRuns, ThatFailLeaveTheOthersInEveryDesign)
   }
 }
 
-TEST(StudyRuns, OfAFinishedStudyAreBegunAnewByRanksTogether)
+TEST(StudyRuns, OfAFinishedStudyAreBegunAgainByRanksTogether)
 {
   const Folder folder("study_anew");
   answered(small(folder), folder);
@@ -251,7 +251,7 @@ TEST(EventKinds, AreThoseOfAllGuards)
 }
 
 // The limiter switches later the more it allows; the crane is followed for 0.3 s from there on.
-TEST(StudyRuns, TakeParametersThatTheyTellFromThemselves)
+TEST(StudyRuns, TakeParametersThatTheyDefine)
 {
   const Folder folder("study_measure");
   folder.file("s.toml", "[scene]\nfile = '" GESTELL_SOURCE_DIR "/apps/scenes/crane_minimal.toml'\n"
