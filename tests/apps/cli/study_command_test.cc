@@ -30,7 +30,7 @@ TEST(StudyCommand, LeavesItsRowsAndGoesOnAfterAnInterruption)
   expect_answer(cut, 130, {"runs made", " remaining"});
   const std::string before = read(folder.results() / "runs.csv");
   EXPECT_LT(lines_of(folder.results() / "runs.csv"), 41);
-  expect_answer(gestell(study), 2, {"of 40 rows of this study; go on with --resume"});
+  expect_answer(gestell(study), 2, {"of 40 rows of this study; continue with --resume"});
   expect_answer(gestell(study + "--resume --set design.runs=41"), 2, {"design.runs was 40, is 41"});
   std::ofstream(folder.results() / "runs.csv", std::ios::app) << "40,done,7"; // as a crash leaves it
   expect_answer(gestell(study + "--resume --jobs 2"), 0, {"report: "});
@@ -97,7 +97,7 @@ TEST(StudyCommand, DoesNotMergeSharesThatAreBeingMade)
   expect_answer(both, 0, {"is running a share of a study there", "6 runs made"});
   expect_answer(gestell(study), 0, {"6 runs made"});
   EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 12);
-  expect_answer(gestell(study + "--share 2/2"), 2, {"holds 12 rows of this study already"});
+  expect_answer(gestell(study + "--share 2/2"), 2, {"holds 12 rows of this study; complete them"});
 }
 
 /// A search on runs of the press, and draws about what it finds.
@@ -135,7 +135,7 @@ TEST(StudyCommand, IsInterruptedInSearchesAndKeepsTheirRows)
     const Answer      cut  = gestell("study " + folder.file("s.toml", search) + folder.option() + "--jobs " + jobs +
                                      " --set optimise.robust.draws=5000 2>&1 & p=$!; while [ $(cat " + rows +
                                      " 2>/dev/null | wc -l) -lt 5 ]; do sleep 0.01; done; kill -INT $p; wait $p");
-    expect_answer(cut, 130, {"interrupted: what was not found yet is missing"});
+    expect_answer(cut, 130, {"interrupted: results are incomplete"});
     EXPECT_GE(count(read(folder.results() / "optimum_runs.csv"), ",done,"), 4);
   }
 }
