@@ -102,8 +102,8 @@ void print_partition(const Partition &partition)
   }
   if (partition.n_free > 0)
     std::cout << "the frame has " << partition.n_free
-              << " rigid-body modes; with fixed interfaces it has none, so C22 is positive definite; DOFs with other "
-                 "reasons constrain "
+              << " rigid-body modes; with fixed interfaces it has none, so C22 is positive definite; interface DOFs "
+                 "retained for other reasons already constrain "
               << partition.n_held_by_acted << " of them\n";
   if (partition.n_massless > 0)
     std::cout << partition.n_massless
