@@ -156,7 +156,7 @@ TEST(StudyCommand, LinksTheRunsThatItKeeps)
   const Folder folder("study_kept");
   expect_answer(gestell("study " + folder.file("s.toml", text) + folder.option() +
                         "--set design.runs=4 --set run.end=\"5 ms\" --set keep=true --set optimise.goals.F.scale=1"),
-                0, {"by a run"});
+                0, {", run "});
   const std::string page = read(folder.results() / "report.html");
   for (const char *run : {"run_1", "run_4", "run_5"}) // the last verifies the optimum
   {
@@ -181,7 +181,7 @@ TEST(StudyCommand, FindsTheOptimumAndWritesItAsAScene)
 {
   const Folder folder("study_optimum");
   expect_answer(gestell("study '" GESTELL_SOURCE_DIR "/apps/studies/press_24.toml'" + folder.option()), 0,
-                {"24 runs made", "optimum on the surface", "play = -1", "by a run -501.09 kN"});
+                {"24 runs made", "optimum on the surface", "play = -1", "run -501.09 kN"});
   for (const char *file : {"runs.csv", "surface.csv", "effects.csv", "report.html", "optimum.toml", "optimum_runs.csv"})
     EXPECT_TRUE(std::filesystem::exists(folder.results() / file)) << file;
   const auto again = (folder / "again").string();
