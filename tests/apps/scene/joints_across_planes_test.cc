@@ -130,7 +130,7 @@ TEST(JointsAcrossPlanes, AScrewAskewToItsShaftIsRefused)
                        "[joint.j]\ntype = \"screw\"\nfrom = \"shaft\"\nto = \"nut\"\nat_from = [0, 0, 0]\n"
                        "at_to = [0.3, 0, 0]\naxis = [0.6, 0.8, 0]\npitch = \"10 mm\"\n" +
                        short_run + "signals = { }\n",
-                   "lies askew to the axis of 'shaft'");
+                   "is not parallel to the axis of 'shaft'");
 }
 
 // The pin of a crank about y leaves the plane z = 0.2 of the body at once: held there, the crank stands still.

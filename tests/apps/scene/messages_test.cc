@@ -82,7 +82,7 @@ const std::string pendulum = planar_body("p", "1", "1", "[1, 0, 0]", "[0, 0, 1]"
 TEST(Messages, APlanarHingeMayGiveTheAxisItHas)
 {
   EXPECT_EQ(complaint(pendulum + "axis = [0, 0, -2]\n"), "");
-  expect_complaint(pendulum + "axis = [0, 1, 0]\n", "joint.hinge.axis: 'p' turns about another axis only");
+  expect_complaint(pendulum + "axis = [0, 1, 0]\n", "joint.hinge.axis: 'p' rotates about its own axis only");
 }
 
 // The joint stands in line 10 of the scene.

@@ -31,9 +31,9 @@ TEST(SceneSummary, CountsTheDegreesOfFreedomOfAMechanism)
 TEST(SceneSummary, NamesWhatThereIs)
 {
   const std::string press = words_of("press_minimal.toml");
-  for (const char *part : {"meets the machine at 'crown', 'table'", "'slide' (slider guided by frame.crown)",
-                           "nonlinear 'motor', 'rod', 'sheet'", "2 of the frame, 3 of the bodies\n",
-                           "bdf to t = 0.45 s in 45001 steps of 1e-05 s"})
+  for (const char *part :
+       {"interfaces 'crown', 'table'", "'slide' (slider guided by frame.crown)", "nonlinear 'motor', 'rod', 'sheet'",
+        "2 of the frame, 3 of bodies\n", "bdf to t = 0.45 s in 45001 steps of 1e-05 s"})
     EXPECT_NE(press.find(part), std::string::npos) << part << "\n" << press;
 }
 

@@ -99,7 +99,7 @@ TEST_F(OfFlight, WhatIsNotANumberOfTheMachineIsRefusedByName)
 {
   const auto refused = [&](const std::string &keys, const std::string &words)
   { expect_refusal([&] { differentiated(Session(path_), keys); }, words); };
-  refused("parameters.gapp", "has no entry \"gapp\"; did you mean 'gap'");
+  refused("parameters.gapp", "has no key \"gapp\"; did you mean 'gap'");
   refused("element.stop.stiffnes", "did you mean 'stiffness'");
   refused("element.stop.side", "\"above\" is not a number");
   refused("body.mass.axis", "is an array");

@@ -141,8 +141,7 @@ TEST(Switches, EndTheRunWithTheirStatement)
   const std::vector<std::string> tips = {
       "switch.tips={when=\"chassis.angle\", below=\"-0.02 rad\", ends=\"the crane tips over its front axle\"}"};
   const apps::Result result = crane_run(tips);
-  EXPECT_THAT(result.run->failure,
-              ::testing::HasSubstr("the crane tips over its front axle: chassis.angle lies below"));
+  EXPECT_THAT(result.run->failure, ::testing::HasSubstr("the crane tips over its front axle: chassis.angle is below"));
   EXPECT_EQ(result.run->events.back().name, "tips");
   const auto &rows = result.run->rows;
   EXPECT_NEAR(rows[rows.size() - result.run->columns.size()], result.run->events.back().t, 1e-12); // the last row

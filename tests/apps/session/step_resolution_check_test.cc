@@ -109,7 +109,7 @@ TEST(StepResolutionCheck, OfAnUnbalanceThatTurnsByAWholeTurnInAStepAreReported)
            element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "10000"}, {"damping", "5"}});
   };
   EXPECT_THAT(warnings_of(turning("6283.185307179586 rad/s") + run_at("1 ms")),
-              HasSubstr("'disc' turns by 360 degrees"));
+              HasSubstr("'disc' rotates by 360 degrees"));
   EXPECT_THAT(warnings_of(turning("60 rad/s") + run_at("1 ms")), Not(HasSubstr("run.step")));
 }
 

@@ -240,7 +240,7 @@ TEST(OutputName, IsRefusedWithTheWayOut)
 {
   const std::vector<std::string> signals = {"F_P", "x slide"};
   for (const auto &[given, words] :
-       {std::pair("F_Q.max", "did you mean F_P.max?"), std::pair("F_P", "say what of it: F_P.max"),
+       {std::pair("F_Q.max", "did you mean F_P.max?"), std::pair("F_P", "name one of its numbers: F_P.max"),
         std::pair("F_P.mean", "valid: max, min"), std::pair("events", "is a count"),
         std::pair("work.steps", "is a count"), std::pair("modes.9", "is not among the 4 listed modes"),
         std::pair("modes.x", "needs the number of a mode")})

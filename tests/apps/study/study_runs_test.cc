@@ -360,7 +360,7 @@ TEST(StudyRuns, OfAnotherStudyOrOfOneThatWasChangedAreNotGoneOnWith)
   EXPECT_EQ(answered(small(folder), folder, {"surface.order=\"linear\""}).n_made, 4); // made of the same rows
   folder.file("other.toml", small_study);
   expect_refusal([&] { answered((folder / "other.toml").string(), folder); },
-                 "holds rows of the study 'small', this one is 'other'");
+                 "contains rows of the study 'small', but this study is 'other'");
 }
 
 TEST(StudyRuns, AreRefusedBeforeTheFirstWhereTheSceneCannotDoThem)
@@ -370,7 +370,7 @@ TEST(StudyRuns, AreRefusedBeforeTheFirstWhereTheSceneCannotDoThem)
   expect_refusal(with("variables.c_P.key=\"parameters.cP\""),
                  "has no parameter 'cP' in parameters; did you mean 'c_P'?");
   expect_refusal(with("variables.c_P.key=\"element.rot.stiffness\""),
-                 "has no entry 'rot' in element; did you mean 'rod'?");
+                 "has no key 'rot' in element; did you mean 'rod'?");
   expect_refusal(with("variables.c_P.key=\"element.rod\""), "is a table of the scene");
   expect_refusal(with("variables.s_cl.from=\"-0.1 mm\""),
                  "small.toml:7: variables.s_cl: -0.1 mm of variable s_cl the scene does not accept");
