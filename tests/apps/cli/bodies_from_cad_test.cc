@@ -98,7 +98,7 @@ TEST(BodyFromCad, RotorTakesTheInertiaAboutItsAxisAndWarnsOfUnbalance)
   const auto nearby = Drawing(disc).scene("cad = \"part.geo\"\n" + rotor + "position = [\"30 mm\", \"7 m\", 0]\n");
   EXPECT_NEAR(nearby.bodies.at(0).inertia, 0.5 * M * 0.04 + M * 0.0009, 1e-9 * M) << "Steiner's theorem";
   ASSERT_EQ(nearby.warnings.size(), 1u);
-  EXPECT_THAT(nearby.warnings[0], HasSubstr("body.b.cad: the centre of mass lies 30 mm off the axis"));
+  EXPECT_THAT(nearby.warnings[0], HasSubstr("body.b.cad: the centre of mass is 30 mm off the axis"));
 }
 
 TEST(BodyFromCad, SliderAndPointTakeTheMassOfAllSolids)

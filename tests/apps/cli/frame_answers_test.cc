@@ -58,7 +58,7 @@ TEST_F(FrameAnswers, RigidBodyModesHaveNoFrequencyAndAreNamed)
 {
   const Answer answer = ask("modes", block(""));
   ASSERT_EQ(answer.exit_code, 0) << answer.text;
-  EXPECT_EQ(count(answer.text, "   rigid motion\n"), 6) << answer.text;
+  EXPECT_EQ(count(answer.text, "   rigid-body mode\n"), 6) << answer.text;
   EXPECT_EQ(count(answer.text, "   rigid-body mode: no stiffness\n"), 6) << answer.text;
   EXPECT_FALSE(answer.says("unstable")) << answer.text;
 }

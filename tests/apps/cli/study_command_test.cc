@@ -122,8 +122,9 @@ TEST(StudyCommand, SearchesAndDrawsSideBySideAsOneAfterAnother)
   const Folder slopes("study_search_slopes");
   const Answer warned = gestell("study " + slopes.file("s.toml", search) + slopes.option() +
                                 "--set optimise.method=gradient --set optimise.starts=1");
-  expect_answer(warned, 0, {"gestell: warning: the search on runs took derivatives from differences of runs"});
-  EXPECT_EQ(count(read(slopes.results() / "findings.txt"), "warning: the search on runs took derivatives"), 1);
+  expect_answer(warned, 0, {"gestell: warning: the search with runs used difference quotients"});
+  EXPECT_EQ(count(read(slopes.results() / "findings.txt"), "warning: the search with runs used difference quotients"),
+            1);
 }
 
 TEST(StudyCommand, IsInterruptedInSearchesAndKeepsTheirRows)

@@ -127,7 +127,7 @@ TEST(Stop, RefusesWhatMakesNoSense)
   EXPECT_EQ(complaint(scene), "");
   expect_complaint(with(scene, "impact_speed = \"3 m/s\"", ""), "needs 'restitution' and 'impact_speed' together");
   expect_complaint(with(scene, "impact_speed = \"3 m/s\"", "impact_speed = \"3 m/s\"\ndissipation = 0.1"),
-                   "element.bumper.restitution: says the same as 'dissipation'");
+                   "element.bumper.restitution: means the same as 'dissipation'");
   expect_complaint(with(scene, "restitution = 0.6", "restitution = 1.2"), "restitution = 1.2, but it must be above 0");
   expect_complaint(with(scene, "side = \"below\"", "side = \"left\""), "there is no 'left'");
   expect_complaint(with(scene, "stiffness = \"2 N/um\"", "stiffness = 0"), "needs a stiffness above zero");

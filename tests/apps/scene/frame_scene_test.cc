@@ -162,7 +162,7 @@ TEST(SceneFrame, MistakesAreReportedWithPlaceAndRemedy)
       {"ratio = 0.02", "ratio = 2", "scene.toml:5: frame.damping.ratio", "0.01"},
       {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }]", "damping.rayleigh", "needs two"},
       {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }, { frequency = 40, ratio = 0.09 }]",
-       "damping.rayleigh", "feed"}};
+       "damping.rayleigh", "amplify"}};
   for (const auto &[piece, replacement, place, words] : cases)
   {
     const auto message = complaint(cad_scene(piece, replacement));

@@ -204,7 +204,7 @@ TEST(GasForce, AWarningNamesTheEndOfItsStroke)
                                                   "delivery_pressure = \"2 bar\"\n[start]\nrule = \"given\"\n"
                                                   "q = { slide = 0.1 }\nv = { slide = -1 }\n",
                           {"run.step=0.1 ms", "output.picture_step=0"});
-  EXPECT_NEAR(warned_at(motion, "gas: the piston comes to the end of its stroke"), 0.105, 1e-6); // 200 N on 1e6 kg
+  EXPECT_NEAR(warned_at(motion, "gas: the piston reaches the end of its stroke"), 0.105, 1e-6); // 200 N on 1e6 kg
 }
 
 TEST(HydraulicCylinder, BadInputAndMethodsAreRefused)
@@ -215,7 +215,8 @@ TEST(HydraulicCylinder, BadInputAndMethodsAreRefused)
                                                 "supply_pressure = \"9 bar\"\n"),
                    "opening of the valve = 2");
   expect_complaint(slider(1., "1 s") + cylinder("flow = 0\nrated_flow = \"1 cm^3/s\"\n"), "unknown key 'rated_flow'");
-  expect_refusal([&] { run(slider(1., "1 s") + cylinder("flow = 0\n"), {"run.method=newmark"}); }, "use bdf");
+  expect_refusal([&] { run(slider(1., "1 s") + cylinder("flow = 0\n"), {"run.method=newmark"}); },
+                 "use the method bdf");
 }
 
 } // namespace

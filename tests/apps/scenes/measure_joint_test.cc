@@ -260,7 +260,7 @@ TEST(Cam, TableWhoseSplineSwingsBeyondItsRowsGivesAWarning)
     return test::scene_of(shaft_and_slide + joint("cam", "position function", cam)).warnings;
   };
   const auto step = warnings("[0, 0], [1, 0], [2, 0], [3, 1], [4, 1], [5, 1]");
-  EXPECT_NE(step.at(0).find("scene.toml:13: joint.cam.table: the spline swings"), std::string::npos) << step[0];
+  EXPECT_NE(step.at(0).find("scene.toml:13: joint.cam.table: the spline overshoots"), std::string::npos) << step[0];
   const auto level = warnings("[0, 0], [0.9, 0], [1, 0], [1.01, 1], [1.1, 1], [2, 1]"); // uneven rows
   EXPECT_NE(level.at(0).find("overshoots by 133 the adjacent rows at 1.6"), std::string::npos) << level[0];
   std::string sine;

@@ -330,7 +330,7 @@ TEST(RigidBody, BadInputIsRefusedWithItsReason)
   expect_complaint(good + rotor_body("wheel", "1", "[0, 0, 1]", {{"on", "top"}}), "is a free spatial body");
   expect_complaint(good + "[element.spring]\ntype = \"spring-damper\"\nfrom = \"top\"\nabout = [0, 0, 1]\n"
                           "stiffness = \"1 N m/rad\"\n",
-                   "act on a [measure]");
+                   "use a [measure]");
   const std::string joint = good + "[joint.pin]\nfrom = \"ground\"\nto = \"top\"\nat = [0, 0, 0]\n";
   expect_complaint(joint + "type = \"revolute\"\n", "axis");
   expect_complaint(joint + "type = \"universal\"\naxis_from = [0, 0, 1]\naxis_to = [0, 1, 1]\n", "right angles");

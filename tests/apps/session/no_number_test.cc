@@ -70,7 +70,7 @@ void expect_end_before(double t, const std::string &text)
       EXPECT_NE(run.failure, "");
       if (!coupling::method_of(method).carries_base()) // others know it by the coordinate it acts on alone
       {
-        EXPECT_THAT(run.failure, ::testing::HasSubstr("the law of \"law\" has "));
+        EXPECT_THAT(run.failure, ::testing::HasSubstr("the force law of \"law\" has "));
       }
       EXPECT_THAT(run.failure, ::testing::Not(::testing::HasSubstr("stick")));
       EXPECT_TRUE(all_finite(run.rows));

@@ -211,7 +211,7 @@ TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
   EXPECT_THAT(words(test::quoted("gravity = [0, 0, 'x/(1 s^2)']\n[parameters]\nx = '1 m'\n") + slide +
                         cosine_load("slide", 1., 2.),
                     along),
-              testing::HasSubstr("one unit"));
+              testing::HasSubstr("the same unit"));
   along.along = "parameters.y";
   EXPECT_THAT(words(test::quoted("[parameters]\nx = '1 m'\n") + slide + cosine_load("slide", 1., 2.), along),
               testing::HasSubstr("no parameter 'y'"));

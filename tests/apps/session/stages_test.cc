@@ -165,7 +165,8 @@ TEST(Scenes, LeaveOutWhatTheyDoNotWantOfAnother)
   EXPECT_EQ(apps::read_scene(without("[\"element.air\"]")).elements.size() + 1,
             apps::read_scene(base, {}).elements.size());
   expect_refusal([&] { apps::read_scene(without("[\"element.ari\"]")); }, "did you mean 'element.air'");
-  expect_refusal([&] { apps::read_scene(folder.write("alone.toml", "without = [\"element.air\"]")); }, "nothing is");
+  expect_refusal([&] { apps::read_scene(folder.write("alone.toml", "without = [\"element.air\"]")); },
+                 "there is no 'extends'");
 }
 
 } // namespace

@@ -309,7 +309,7 @@ TEST(OptimumScene, LeavesOutWhatLiesDeeperThanANamedEntry)
   EXPECT_EQ(brake->find("ramps")->elements.size(), 2u);
   folder.file("wrong.toml", "extends = 'optimum.toml'\nwithout = ['joint.cylinder.motion.break']\n");
   expect_refusal([&] { read_scene_file((folder / "wrong.toml").string(), {}); },
-                 "without: 'joint.cylinder.motion.break': the scene that is extended has no such entry");
+                 "without: 'joint.cylinder.motion.break': the base scene has no such table");
   folder.file("plain.toml", "extends = 'optimum.toml'\nwithout = ['joint.cylinder.motion.brake']\n");
   const SceneNode plain = read_scene_file((folder / "plain.toml").string(), {});
   EXPECT_FALSE(plain.find("joint")->find("cylinder")->find("motion")->find("brake"));
