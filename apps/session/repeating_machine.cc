@@ -237,7 +237,7 @@ std::string turn(const Scene &scene, coupling::Machine &machine, const coupling:
     problem.period      = found.period;
     problem.phase       = found.phase;
     problem.phase_value = start.q[found.phase];
-    repeating.reason    = "the machine completes its period with " + machine.coordinate_name(found.phase) +
+    repeating.reason    = "the period is determined by the revolution of " + machine.coordinate_name(found.phase) +
                        (is_driven(scene, machine)
                             ? "; its mean speed follows from the balance of motor and resistance"
                             : "; it has no drive, so its speed is arbitrary: set it by --period, or add a motor");
