@@ -213,7 +213,7 @@ void list_cache(const ReduceCommandOptions &options)
             << size_text(double(bytes)) << '\n';
   if (entries.empty())
     return;
-  std::cout << formatted("  %-12s  %-16s  %9s  %-26s  %s\n", "key", "last used", "size", "coordinates", "made from");
+  std::cout << formatted("  %-12s  %-16s  %9s  %-26s  %s\n", "key", "last used", "size", "DOFs", "made from");
   for (const CacheEntry &entry : entries)
   {
     const std::string coordinates = std::to_string(entry.n_full) + " -> " + std::to_string(entry.n_interface) + " + " +
@@ -255,8 +255,8 @@ void explain_cache(const Scene &scene)
   else
   {
     std::cout << " is in the cache and would be used\n  " << own->file << ", " << size_text(double(own->bytes))
-              << ", last used " << date_text(own->last_used) << "\n  " << own->n_full << " coordinates -> "
-              << own->n_interface << " interface + " << own->n_modes << " modes, " << origin_text(own->origin) << '\n';
+              << ", last used " << date_text(own->last_used) << "\n  " << own->n_full << " DOFs -> " << own->n_interface
+              << " interface + " << own->n_modes << " modes, " << origin_text(own->origin) << '\n';
     return;
   }
   explain_miss(entries, recipe);

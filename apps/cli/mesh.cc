@@ -138,8 +138,8 @@ void print_mesh(const coupling::MeshReport &report)
   std::cout << report.n_points << " points, " << report.n_cells << ' ' << report.cells;
   if (report.expected_cells > 0.)
     std::cout << " (about " << std::setprecision(2) << report.expected_cells << " expected)" << std::setprecision(6);
-  std::cout << ", about " << report.n_coordinates << " coordinates, quality " << report.worst_quality << " at worst, "
-            << report.mean_quality << " in the mean (1: regular)\n"
+  std::cout << ", about " << report.n_coordinates << " DOFs, element quality " << report.worst_quality << " (worst), "
+            << report.mean_quality << " (mean); 1 is regular\n"
             << "memory: a reduction takes about " << gibibytes(report.memory) << ", available are "
             << gibibytes(report.available_memory) << '\n';
   for (const std::string &feature : report.features)

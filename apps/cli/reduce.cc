@@ -58,7 +58,7 @@ void print_frame(const FrameAnswer &answer)
 {
   const coupling::ReducedFrame &frame = answer.frame;
   std::cout
-      << (answer.from_cache ? "reduced frame from the cache\n" : "reduced frame created\n") << "  coordinates   "
+      << (answer.from_cache ? "reduced frame from the cache\n" : "reduced frame created\n") << "  DOFs          "
       << frame.n_full << " -> " << frame.n_interface << " interface + " << frame.omega0.size() << " modes\n"
       << "  static load on internal DOFs not represented by the modes: " << 100. * frame.static_residual
       << " % (by deflection energy; exact at the interface; it matters under quick accelerations of the frame; "
@@ -102,8 +102,8 @@ void print_partition(const Partition &partition)
   }
   if (partition.n_free > 0)
     std::cout << "the frame has " << partition.n_free
-              << " rigid-body modes; with fixed interfaces it has none, so C22 is positive definite; DOFs with other "
-                 "reasons constrain "
+              << " rigid-body modes; with fixed interfaces it has none, so C22 is positive definite; interface DOFs "
+                 "retained for other reasons already constrain "
               << partition.n_held_by_acted << " of them\n";
   if (partition.n_massless > 0)
     std::cout << partition.n_massless

@@ -162,7 +162,7 @@ Command study_command()
           CommandInput::study,
           {{"--resume", &requested->resume, "continue the study in the folder"},
            {"--share", &requested->share,
-            "run only this share of the runs, such as 3/10; a call without it merges the shares"}},
+            "run only this share of the runs, such as 3/10; a final call without the option merges the shares"}},
           [requested](const CommonOptions &options) { return study_scene(options, *requested); }};
 }
 

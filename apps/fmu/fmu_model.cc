@@ -269,7 +269,7 @@ void FmuModel::restore(const FmuState &state)
   if (state.motion->q.size() != machine_->size() || state.motion->v.size() != machine_->size() ||
       state.motion->history.size() != machine_->events().save_history().size())
     throw std::invalid_argument("the state is damaged: it has " + std::to_string(state.motion->q.size()) +
-                                " coordinates, this one " + std::to_string(machine_->size()));
+                                " DOFs, this one " + std::to_string(machine_->size()));
   run_->restore(*state.motion);
 }
 

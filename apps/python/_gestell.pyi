@@ -44,7 +44,7 @@ class Peak:
 
     @property
     def t_min(self) -> float:
-        """When it is smallest [s]."""
+        """Time of the smallest value [s]."""
 
     @property
     def max(self) -> float:
@@ -52,7 +52,7 @@ class Peak:
 
     @property
     def t_max(self) -> float:
-        """When it is largest [s]."""
+        """Time of the largest value [s]."""
 
     @property
     def final(self) -> float:
@@ -60,11 +60,11 @@ class Peak:
 
 
 class Event:
-    """A law changes its branch: t [s], name of the element, kind."""
+    """Event (change of branch of a law): t [s], name of the element, kind."""
 
     @property
     def t(self) -> float:
-        """When it happens [s]."""
+        """Time of the event [s]."""
 
     @property
     def name(self) -> str:
@@ -72,11 +72,11 @@ class Event:
 
     @property
     def kind(self) -> str:
-        """What happens, "contact", "sticks"."""
+        """Kind of the event, such as "contact" or "sticks"."""
 
 
 class Finding:
-    """What a check found."""
+    """Finding of a check."""
 
     @property
     def severity(self) -> str:
@@ -92,11 +92,11 @@ class Finding:
 
     @property
     def text(self) -> str:
-        """What is wrong, where, and what to do."""
+        """Problem, location and remedy."""
 
 
 class Result:
-    """What was computed of a scene; arrays show its memory."""
+    """Results of a scene; arrays are views."""
 
     @property
     def t(self) -> _Array:
@@ -132,7 +132,7 @@ class Result:
 
     @property
     def findings(self) -> list[Finding]:
-        """The same as values with severity, id and place, a list of Finding."""
+        """The same warnings as a list of Finding, with severity, id and place."""
 
     @property
     def scene(self) -> str:
@@ -148,7 +148,7 @@ class Result:
 
     @property
     def damping_ratios(self) -> _Array:
-        """Damping ratio of each mode [1]; nan where it does not vibrate."""
+        """Damping ratio of each mode [1]; nan without vibration."""
 
     @property
     def shapes(self) -> _Array:
@@ -168,7 +168,7 @@ class Result:
 
     @property
     def sensitivities(self) -> dict[str, dict[str, float]] | None:
-        """Derivatives of each output by each key, a dict of dicts in SI; None: not asked for."""
+        """Derivatives of each output by each key, a dict of dicts in SI; None: not requested."""
 
     def save(self, folder: Any) -> list[str]:
         """Writes report.html, history.csv and all other files; returns their names."""
@@ -218,11 +218,11 @@ class Frame:
 
     @property
     def n_interface(self) -> int:
-        """Number of interface coordinates, which come first."""
+        """Number of interface DOFs, which come first."""
 
     @property
     def n_full(self) -> int:
-        """Number of coordinates of the frame that was reduced."""
+        """Number of DOFs of the unreduced frame."""
 
     @property
     def mass(self) -> float:
@@ -230,11 +230,11 @@ class Frame:
 
     @property
     def notes(self) -> list[str]:
-        """Warnings of the making."""
+        """Warnings of the reduction."""
 
     @property
     def statements(self) -> list[str]:
-        """What was checked in the making and is as it should be."""
+        """Checks of the reduction that passed."""
 
     @property
     def frequencies_hz(self) -> _Array:
@@ -242,10 +242,10 @@ class Frame:
 
 
 class FullFrame:
-    """A frame M q'' + B q' + C q = f as it is assembled: sparse matrices, not reduced."""
+    """An assembled frame M q'' + B q' + C q = f: sparse matrices, not reduced."""
 
     def csc(self, name: str) -> tuple[_Array, _Array, _Array, int]:
-        """M [kg], B [N s/m] or C [N/m] by columns: (values, rows, begins of columns, n), views of what the frame holds."""
+        """M [kg], B [N s/m] or C [N/m] by columns: (values, rows, begins of columns, n), views of the frame's memory."""
 
     @property
     def n(self) -> int:
@@ -257,7 +257,7 @@ class FullFrame:
 
     @property
     def interfaces(self) -> dict[str, dict[str, int]]:
-        """Rows of each interface, from 0: {"crown": {"ux": 17, ...}}; motions held are left out."""
+        """Rows of each interface, from 0: {"crown": {"ux": 17, ...}}; fixed DOFs are omitted."""
 
     @property
     def translations(self) -> _Array:
@@ -269,7 +269,7 @@ class FullFrame:
 
     @property
     def notes(self) -> list[str]:
-        """What to look at in mesh and assembly."""
+        """Remarks about mesh and assembly."""
 
     @property
     def M(self) -> _Sparse:

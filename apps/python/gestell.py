@@ -1,4 +1,4 @@
-"""Vibrations of a machine and of the frame that carries it.
+"""Vibrations of a machine together with its frame.
 
     import gestell
 
@@ -8,7 +8,7 @@
     print(result.peaks["F_P"].max, result.warnings)
     force = result["F_P"]                 # NumPy array over result.t
 
-Numbers are SI, text carries its unit, as in scene files.  Wrong input raises InputError (a ValueError), of a scene
+Numbers are SI, strings carry a unit, as in scene files.  Wrong input raises InputError (a ValueError), of a scene
 SceneError, which has file, line and key; a computation that fails ComputationFailed (a RuntimeError, with what was
 computed in its `result`), Ctrl-C KeyboardInterrupt, likewise.
 """
@@ -43,12 +43,12 @@ def loads(text: str, folder=".") -> "Scene":
 
 
 def example(name: str) -> "Scene":
-    """A scene that Gestell ships, "press_minimal"; a wrong name is answered with all of them."""
+    """A scene shipped with Gestell, such as "press_minimal"; the error for an unknown name lists all of them."""
     return load(_shipped("scenes", name, ".toml"))
 
 
 def mesh(name: str) -> str:
-    """Path of a CAD file that Gestell ships, "press_frame.step"; a wrong name is answered with all of them."""
+    """Path of a CAD file shipped with Gestell, such as "press_frame.step"; the error for an unknown name lists all of them."""
     return str(_shipped("meshes", name, ""))
 
 
@@ -61,11 +61,11 @@ def _shipped(kind: str, name: str, ending: str):
         if (folder / (name + ending)).is_file():
             return folder / (name + ending)
     names = sorted(path.name.removesuffix(ending) for folder in folders for path in folder.glob("*" + (ending or ".*")) if path.suffix != ".md")
-    raise InputError(f"there is no '{name}' among the {kind} shipped; valid: {', '.join(names)}")
+    raise InputError(f"there is no '{name}' among the shipped {kind}; valid: {', '.join(names)}")
 
 
 class Scene:
-    """A scene as data: entries are read and set by their path, then computed.
+    """A scene as data: keys are read and set by their path, then computed.
 
     Scene({"body": {...}, ...}) builds one from a dict, Scene(gravity=[0, 0, -9.81]).body("bob", "point", mass="2 kg")
     one call by call.  Relative paths start at `folder`.  Numbers are SI, text carries its unit.
@@ -94,12 +94,12 @@ class Scene:
         return True
 
     def set(self, key: str, value) -> "Scene":
-        """Sets an entry, "parameters.c_P"; returns the scene, so that calls chain."""
+        """Sets a key such as "parameters.c_P"; returns the scene, so that calls can be chained."""
         self._core.set(key, value)
         return self
 
     def add(self, table: str, **entries) -> "Scene":
-        """Adds entries to a table, "run" or "body.crank"; from_ stands for from.  Returns the scene, so that calls chain."""
+        """Adds keys to a table such as "run" or "body.crank"; from_ means from.  Returns the scene, so that calls can be chained."""
         self._core.add(table, _entries(entries))
         return self
 
@@ -108,16 +108,16 @@ class Scene:
         return self.add("parameters", **entries)
 
     def body(self, name: str, type: str, **entries) -> "Scene":
-        """Adds a body: its name, its type and its entries; returns the scene."""
+        """Adds a body: its name, its type and its keys; returns the scene."""
         return self.add(f"body.{_written(name)}", type=type, **entries)
 
     def joint(self, name: str, type: str, **entries) -> "Scene":
-        """Adds a joint: its name, its type and its entries, from_="crank"; returns the scene."""
+        """Adds a joint: its name, its type and its keys, such as from_="crank"; returns the scene."""
         return self.add(f"joint.{_written(name)}", type=type, **entries)
 
     def element(self, name: str, type: str = "", derivative=None, state=(), events=(), event_values=None, at_event=None,
                 after_step=None, **entries) -> "Scene":
-        """Adds an element: its name, its type and its entries, from_="crank"; returns the scene.
+        """Adds an element: its name, its type and its keys, such as from_="crank"; returns the scene.
 
         force: of a "formula force" also a function F(t, u, v) in N or N m of time, displacement or angle u, and its rate.
         derivative: function that returns dF/du and dF/dv; None: central differences, four more calls of `force` each.
@@ -131,7 +131,7 @@ class Scene:
             type, events = type or "formula force", list(events)
             entries["force"] = _gestell.Function.law({"force": entries["force"], **law}, list(state), events)
         elif len(state) or len(events) or any(law.values()):
-            raise InputError(f"element '{name}': derivative, state and events belong to a force that is a function; give force=f")
+            raise InputError(f"element '{name}': derivative, state and events need a force that is a function; give force=f")
         return self.add(f"element.{_written(name)}", **({"type": type} if type else {}), **entries)
 
     def signal(self, name: str, function, of=(), unit="1") -> "Scene":
@@ -140,15 +140,15 @@ class Scene:
         return self.add("output.signals", **{name: _gestell.Function.signal(function, of, unit)})
 
     def watch(self, **signals) -> "Scene":
-        """Adds signals that runs tell, x="mass.ux"; returns the scene."""
+        """Adds signals to the output of runs, such as x="mass.ux"; returns the scene."""
         return self.add("output.signals", **signals)
 
     def copy(self) -> "Scene":
-        """A scene of its own with the same entries."""
+        """A separate copy of the scene."""
         return Scene._of(self._core.copy())
 
     def to_dict(self) -> dict:
-        """All entries as they stand, with what the scene extends."""
+        """All keys with their values, including those of the base scene."""
         return self._core.values()
 
     @property
@@ -158,7 +158,7 @@ class Scene:
 
     @property
     def signals(self) -> list:
-        """Names of the signals that a run tells."""
+        """Names of the signals of a run."""
         return self._core.signals()
 
     def check(self) -> list:
@@ -166,7 +166,7 @@ class Scene:
         return self._core.check()
 
     def describe(self) -> str:
-        """The scene told back as it was understood: bodies, joints, laws, freedoms, what a run will cost."""
+        """Summary of the scene: bodies, joints, elements, degrees of freedom, cost of a run."""
         return "\n".join(self._core.words())
 
     def run(self, signals=None, peaks=None, lean=False, sensitivities="", progress=None, **settings) -> Result:
@@ -176,7 +176,7 @@ class Scene:
         peaks: the same of signals whose extremes alone are wanted: no history, no pictures, no energy balance.
         lean: without pictures and energy balance, as runs of studies.
         sensitivities: entries by which outputs are differentiated, "parameters.c_P,parameters.s_cl", or "all".
-        progress: True, or a callable that is told (phase, share done; negative: unknown); what it raises ends the run.
+        progress: True, or a callable f(phase, completed share; negative: unknown); an exception in it ends the run.
         settings: entries of [run] for this run alone, end="1 s", tolerance=1e-8.
         """
         scene = self.copy().add("run", **settings) if settings else self
@@ -204,7 +204,7 @@ class Scene:
         return Stability(json.loads(self._core.stability(step)))
 
     def size(self, tolerance: float, outputs="", max_cpu=0., exhaustive=False) -> "Size":
-        """The smallest mesh, number of modes and integration that keep outputs, "F_P.max,F_P.min", within a relative tolerance.
+        """The cheapest mesh, number of modes and integration that keep outputs, "F_P.max,F_P.min", within a relative tolerance.
 
         max_cpu: [s] that a model may take.  exhaustive: tries all models around the chosen one, too.
         """
@@ -217,21 +217,21 @@ class Scene:
         return self._core.frame()
 
     def full_frame(self) -> FullFrame:
-        """The frame of CAD or matrices as it is assembled, not reduced: M, B, C as scipy.sparse."""
+        """The assembled frame from CAD or matrices, not reduced: M, B, C as scipy.sparse."""
         return self._core.full_frame()
 
     def state_space(self, source, to, kind="receptance", at="start") -> StateSpace:
-        """The machine linearised there, x' = A x + B u, y = C x + D u: inputs are forces along `source`, outputs `to`.
+        """The machine linearised at an operating point, x' = A x + B u, y = C x + D u: inputs are forces along `source`, outputs `to`.
 
         A, B, C, D unpacks, as scipy.signal.StateSpace(*scene.state_space(...)).
         """
         return self._core.state_space(_names(source), _names(to), kind, at)
 
     def sweep(self, levels: dict, peaks=None, jobs=1, signals=None, lean=False, errors="raise", progress=None):
-        """Runs the scene at every combination of levels, {"parameters.c_P": [...], ...}; the scene stays as it is.
+        """Runs the scene at every combination of levels, {"parameters.c_P": [...], ...}; the scene is not changed.
 
         Yields ({"parameters.c_P": value, ...}, result) one by one, in this order.  Files are read and frames reduced once.
-        jobs: threads that make runs side by side.  errors: "raise", or "yield" what a run raised in place of its result.
+        jobs: threads for parallel runs.  errors: "raise", or "yield" the exception of a run instead of its result.
         progress: True, or a callable that is told ("sweep", share done).
         """
         if errors not in ("raise", "yield"):
@@ -305,7 +305,7 @@ Scene.frequency_response = _computes("frf", _responses, **{"from": "source"})
 
 
 class Motion:
-    """A motion that repeats after `period` [s], one row of Periodic."""
+    """A periodic solution with `period` [s], one row of Periodic."""
 
     def __init__(self, values: dict):
         self.period = values["period"]  #: [s]
@@ -329,7 +329,7 @@ class Motion:
 
 
 class Periodic(collections.abc.Sequence):
-    """Motions that repeat, a sequence of Motion; arrays over all of them."""
+    """Periodic solutions, a sequence of Motion; arrays over all of them."""
 
     def __init__(self, result: Result):
         self._result, values = result, result._periodic
@@ -342,7 +342,7 @@ class Periodic(collections.abc.Sequence):
         self.checks = values["checks"]  #: {method: {distances, failure}} of a second method
 
     def save(self, folder) -> list:
-        """Writes what `gestell periodic` does, report.html and solutions.csv among it; returns the names of the files."""
+        """Writes the files of `gestell periodic`, such as report.html and solutions.csv; returns their names."""
         return self._result.save(folder)
 
     def __len__(self) -> int:
@@ -376,7 +376,7 @@ class Periodic(collections.abc.Sequence):
 
 
 class ModesAlong:
-    """Natural frequencies along a coordinate: rows are positions, columns lines that keep to one mode."""
+    """Natural frequencies along a coordinate: rows are positions, columns follow one mode each."""
 
     def __init__(self, result: Result):
         self._result, values = result, result._along
@@ -392,7 +392,7 @@ class ModesAlong:
         self.meetings = values["meetings"]  #: [{order, line, begin, end, x, frequency_hz, distance}]: near a multiple of the speed
 
     def save(self, folder) -> list:
-        """Writes what `gestell modes --along` does, report.html and modes_along.csv among it; returns the names of the files."""
+        """Writes the files of `gestell modes --along`, such as report.html and modes_along.csv; returns their names."""
         return self._result.save(folder)
 
     def __repr__(self) -> str:
@@ -408,7 +408,7 @@ Scene.periodic = _computes("periodic", Periodic)
 
 
 class Stability:
-    """The modes of a scene under its integrator, and what the other methods make of them at the same step."""
+    """Numerical damping and period error of the modes of a scene under its integrator and under all others at the same step."""
 
     def __init__(self, values: dict):
         import numpy
@@ -459,7 +459,7 @@ class Size:
 
 
 def _rung(values: dict) -> dict:
-    """A model of Size; what is not chosen is 0, -1 or empty."""
+    """A model of Size; values that are not chosen are 0, -1 or empty."""
     none = {"mesh_size": 0., "sides": "", "modes": -1, "reduction": "", "share": float("inf")}
     rung = {name: none.get(name) if value is None else value for name, value in values.items()}
     rung["errors"] = rung.pop("outputs")
@@ -467,7 +467,7 @@ def _rung(values: dict) -> dict:
 
 
 def _entries(values: dict) -> dict:
-    """Keyword arguments as entries: from_ is from."""
+    """Keyword arguments as keys: from_ means from."""
     return {key[:-1] if key.endswith("_") else key: value for key, value in values.items()}
 
 
@@ -494,7 +494,7 @@ def _progress(progress):
 
 
 def _ordered(run, points, jobs, interrupted):
-    """(point, run(point)) of all points, in their order, from `jobs` threads that are never far ahead: histories are large."""
+    """(point, run(point)) of all points, in their order, from `jobs` threads that run only a little ahead, because histories are large."""
     with concurrent.futures.ThreadPoolExecutor(jobs) as threads:
         begun = collections.deque()
         try:
@@ -528,7 +528,7 @@ def _html_table(title: str, head: list, rows: list) -> str:
 
 
 def _summary(result: Result) -> dict:
-    """All that summary.json holds, as a dict; numbers in SI."""
+    """Contents of summary.json as a dict; numbers in SI."""
     return json.loads(result._summary)
 
 

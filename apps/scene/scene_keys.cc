@@ -162,7 +162,7 @@ const std::vector<Key> &modes_keys()
                  "film of a rod, remain. An element that acts in every position is an error")
           .by_default("none"),
       key::plain("number", Key::Form::whole,
-                 "number of modes; 0: a run computes none. Runs of machines with more than 600 coordinates omit them, "
+                 "number of modes; 0: a run computes none. Runs of machines with more than 600 DOFs omit them, "
                  "with a note")
           .by_default(&ModesRequest::number)};
   return keys;

@@ -247,7 +247,7 @@ coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepar
 std::string mesh_text(const FrameRequest &frame)
 {
   return frame.source == FrameSource::matrices
-             ? "the frame is given by matrices, so the error of the mesh behind them is unknown"
+             ? "the frame is given by matrices, so the error of the original mesh is unknown"
              : "";
 }
 
@@ -387,8 +387,8 @@ std::string without_modes(const Scene &scene, const std::string &command, const 
   // Number of dense matrices [n x n] allocated at once for the modes of n coordinates: M, B, K, Z, those of the free
   // motions, the modes, and the state matrix [2n x 2n] with its complex vectors.
   constexpr double matrices_of_modes = 24.;
-  fem::require_available("modes: dense matrices of " + std::to_string(n) + " coordinates",
-                         matrices_of_modes * 8. * n * n, "Set modes.number = 0 for no modes, or use fewer bodies.");
+  fem::require_available("modes: dense matrices of " + std::to_string(n) + " DOFs", matrices_of_modes * 8. * n * n,
+                         "Set modes.number = 0 for no modes, or use fewer bodies.");
   return "";
 }
 

@@ -222,10 +222,10 @@ std::string turn(const Scene &scene, coupling::Machine &machine, const coupling:
   const coupling::AngleIncrements found =
       coupling::increments_of(invariance, turning.speed, problem.period, turning.tolerance, machine.linear());
   if (!found.refusal.empty())
-    throw std::invalid_argument(scene.file + ": " + found.refusal +
-                                (problem.period > 0. ? "; load and turning must be commensurate: give --period, or "
-                                                       "change the speed"
-                                                     : "; such a motion never repeats: examine the spectra of a run"));
+    throw std::invalid_argument(
+        scene.file + ": " + found.refusal +
+        (problem.period > 0. ? "; load and rotation must have a common period: set --period, or change the speed"
+                             : "; such a motion never repeats: examine the spectra of a run"));
   if (const std::string element = invariance.changed_by(of_angles(found.turn, turning.angles)); !element.empty())
     throw std::invalid_argument(scene.file + ": the force of " + element +
                                 " does not repeat after one period, so there is no periodic solution; run the scene "
@@ -237,7 +237,7 @@ std::string turn(const Scene &scene, coupling::Machine &machine, const coupling:
     problem.period      = found.period;
     problem.phase       = found.phase;
     problem.phase_value = start.q[found.phase];
-    repeating.reason    = "the machine completes its period with " + machine.coordinate_name(found.phase) +
+    repeating.reason    = "the period is determined by the revolution of " + machine.coordinate_name(found.phase) +
                        (is_driven(scene, machine)
                             ? "; its mean speed follows from the balance of motor and resistance"
                             : "; it has no drive, so its speed is arbitrary: set it by --period, or add a motor");

@@ -328,7 +328,7 @@ BudgetPart sum(const BudgetPart &a, const BudgetPart &b)
 std::string BudgetMaker::what_is_finest()
 {
   const ModelAnswer &finest = models_.of(finest_);
-  return (finest.n_frame > 0 ? std::to_string(finest.n_frame) + " coordinates" : std::string()) +
+  return (finest.n_frame > 0 ? std::to_string(finest.n_frame) + " DOFs" : std::string()) +
          (finest_.raised ? " in elements of degree three" : "") + (finest.n_frame > 0 ? ", " : "") +
          (finest.modes >= 0 ? std::to_string(finest.modes) + " modes, " : "") + finest.method;
 }

@@ -74,8 +74,10 @@ void require_something(const SceneTable &table, const Check &check)
     throw table.error("needs either 'value', an entry of the answer such as \"signals.F.max\", or 'table', a file of "
                       "results such as \"history.csv\" with 'columns'");
   if (!check.table.empty() && check.columns.empty())
-    throw table.error("columns", "is missing: the columns of " + check.table +
-                                     " that are compared, and theirs in the expected table, { \"x [m]\" = \"x\" }");
+    throw table.error(
+        "columns",
+        "is missing: the columns of " + check.table +
+            " that are compared, and the corresponding columns of the expected table, { \"x [m]\" = \"x\" }");
   for (const auto &[column, translated] : check.words)
     if (std::none_of(check.columns.begin(), check.columns.end(), [&](const auto &own) { return own.first == column; }))
       throw table.error("words",

@@ -201,7 +201,7 @@ Demands elastic_demands(const Machine &machine, const VectorXd &q, const MatrixX
 {
   throw std::invalid_argument(
       "the joints make the speeds in start.v depend on each other, or block one of them; for a steady initial state "
-      "give the speeds of the drives only, the joints determine the others");
+      "give only the speeds of the drives; the joints determine the others");
 }
 
 /// Least squares may leave elastic closures open, but not by more than their deflections explain, relative to the
@@ -234,8 +234,8 @@ void require_agreement(const Machine &machine, const SatisfiedPlays &plays, cons
       std::ostringstream text;
       text << "the speeds in start.v contradict each other across the play of \"" << own.name << "\", which closes at "
            << rate
-           << " m/s (or rad/s); for a steady initial state give the speeds of the drives only, plays determine the "
-              "others; for an impact use rule = \"given\"";
+           << " m/s (or rad/s); for a steady initial state give only the speeds of the drives, since clearances "
+              "determine the others; for an impact use rule = \"given\"";
       throw std::invalid_argument(text.str());
     }
   }

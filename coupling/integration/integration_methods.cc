@@ -36,7 +36,8 @@ void check_steps(const MethodOptions &o, const std::string &label)
                     "omitted, because only " + controlling_methods() + " control their step; set a step");
   require_parameter(o.tolerance == 0. || o.tolerance >= finest_tolerance, label, "tolerance", o.tolerance,
                     "1e-13 or more (below is rounding)");
-  require_parameter(o.tolerance > 0. || o.step > 0., label, "step [s]", o.step, "positive, or a tolerance be given");
+  require_parameter(o.tolerance > 0. || o.step > 0., label, "step [s]", o.step,
+                    "positive, unless a tolerance is given");
   require_parameter(o.newton.tolerance >= finest_tolerance && o.newton.tolerance < 1., label, "newton_tolerance",
                     o.newton.tolerance, "1e-13 or more, below 1");
 }

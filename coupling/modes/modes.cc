@@ -224,7 +224,7 @@ Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linear
 {
   if (machine.model().full_frame())
     throw std::invalid_argument("modes: the machine has " + std::to_string(machine.size()) +
-                                " coordinates; reduce the frame (reduction.method = \"craig-bampton\") for its modes");
+                                " DOFs; reduce the frame (reduction.method = \"craig-bampton\") for its modes");
   Linear linear;
   engaged_matrices(machine, q, linearisation.open, linear.K, linear.B);
   linear.M = dense_mass(machine);

@@ -66,7 +66,7 @@ public:
                << coordinate_.unit << "; choose a range around that, or another coordinate or measure";
       throw std::invalid_argument(
           "--along " + coordinate_.name + ": no position has modes; " +
-          (gap.empty() ? "joints and locked coordinates leave no DOF" : "the first: " + gap + at_start.str()));
+          (gap.empty() ? "joints and fixed coordinates leave no DOF" : "the first: " + gap + at_start.str()));
     }
     for (ModesAt &one : along.positions)
       one.modes.resize(std::min(one.modes.size(), std::size_t(options_.lines)));

@@ -113,7 +113,7 @@ BaseReceptance::BaseReceptance(const LinearSystem &base, const MatrixXd &read, c
   MatrixXd M, B, C;
   if (!base.dense_matrices(M, B, C))
     throw std::invalid_argument("frequency response: the base system is sparse and has " + std::to_string(base.size()) +
-                                " coordinates; reduce the frame (reduction.method = \"craig-bampton\")");
+                                " DOFs; reduce the frame (reduction.method = \"craig-bampton\")");
   const std::vector<int> own  = moving(base);
   const auto            &lags = base.virtual_coordinates();
   const ModalBlocks      modes =

@@ -135,7 +135,7 @@ void judge_memory(MeshedModel &result, const FrameSpecification &specification, 
   while (fitting > 1000. && memory(fitting) > available)
     fitting *= 0.9;
   require_memory("about " + text(result.expected_cells) + " tetrahedra with " +
-                     text(coordinates_of(result.expected_cells)) + " coordinates are expected",
+                     text(coordinates_of(result.expected_cells)) + " DOFs are expected",
                  memory(result.expected_cells), available, options.place,
                  "Use size = " + text(size_for_cells(result.model, fitting)) +
                      " m or more, larger sizes on surfaces, or a computer with more memory.");
@@ -153,7 +153,7 @@ void judge_memory(const MeshedModel &result, const FrameSpecification &specifica
     for (const int surface : result.extracted.skin_surface)
       if (is_on(result.selection, name, surface))
         averaged += 2.; // nodes to a triangle
-  require_memory(specification.cad + " has " + text(n) + " coordinates",
+  require_memory(specification.cad + " has " + text(n) + " DOFs",
                  reduction_memory(n, compactness(result.model.volume(), skin_area(result.model.faces)), averaged),
                  available_memory(), specification.mesh.place, "Give a coarser mesh, or a computer with more memory.");
 }

@@ -134,7 +134,7 @@ TEST(Includes, OfCouplingLeaveTheHeavyLibrariesToTheReduction)
   EXPECT_TRUE(none(includes_matching(tree(), {"coupling/"}, {}, "apps/|tests/")));
 }
 
-TEST(Includes, OfPrivateHeadersOfPetscAndSlepcStandInOneFile)
+TEST(Includes, OfPrivateHeadersOfPetscAndSlepcAreInOneFile)
 {
   const std::string internals = "(petsc|slepc)/private/", door = "coupling/eigensolvers/slepc/registered_types.cc";
   EXPECT_TRUE(none(includes_matching(tree(), everywhere, {door}, internals)));

@@ -202,7 +202,7 @@ using Branches = ::testing::TestWithParam<Switch>;
 // dt = 1e-7 s moves u by some 1e-8 m, far above the rounding of u = 0.15 m (3e-17 m) and far inside every branch.
 constexpr double dt = 1e-7;
 
-TEST_P(Branches, GuardsCrossZeroAtTheSwitchingPointAndTheNextOnesAreOpenBehindIt)
+TEST_P(Branches, GuardsCrossZeroAtTheSwitchingPointAndTheNextOnesAreOpenAfterIt)
 {
   const Switch   &s       = GetParam();
   Eigen::VectorXd history = s.history;

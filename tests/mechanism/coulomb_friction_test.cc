@@ -152,7 +152,7 @@ TEST(CoulombFriction, StickSlipOnABeltHasItsExactCycle)
   }
 }
 
-TEST(CoulombFriction, HoldsUpToItsStaticForceAndLetsGoTheWayItIsPulled)
+TEST(CoulombFriction, HoldsUpToItsStaticForceAndReleasesTheWayItIsPulled)
 {
   const CoulombFriction friction({4., 6., 0.2});
   double                rate = 0., history[8] = {7.};

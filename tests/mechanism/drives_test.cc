@@ -102,7 +102,7 @@ Probe probe2(double t, double speed, double state)
   return {t, Eigen::Vector2d(0., state), Eigen::Vector2d(speed, 0.), Eigen::Vector2d::Zero()};
 }
 
-TEST(SpeedDrive, IsProportionalWithinItsLimitsAndTellsWhenItMeetsThem)
+TEST(SpeedDrive, IsProportionalWithinItsLimitsAndReportsWhenItMeetsThem)
 {
   const SpeedDrive drive({10., 20., 100., Profile(30.)});
   EXPECT_EQ(drive.lag(), 0.5);

@@ -311,7 +311,7 @@ TEST(Clearance, IsContinuousAtTouchDownAndNeverPulls)
   EXPECT_GT(force(clearance, probe1(-6e-5, -0.1), &history)[0], 0.);
 }
 
-TEST(CuttingForce, PeaksAtItsPeakPenetrationAndLetsGoOutwards)
+TEST(CuttingForce, PeaksAtItsPeakPenetrationAndReleasesOutwards)
 {
   const CuttingForce cutting({5e3, 6e-4, 4e-4, 0.02});
   EXPECT_NEAR(force(cutting, probe1(1e-3, 1.), nullptr)[0], -5e3, 1e-6);

@@ -47,7 +47,7 @@ TEST(FollowerLoad, ItsPowerIsThatOfTheForceAtItsPoint)
   EXPECT_NEAR(p[2], 0.4 * P, 1e-14);
 }
 
-TEST(FollowerLoad, ObeysOrdersOfItsLaw)
+TEST(FollowerLoad, AcceptsCommandsOfItsLaw)
 {
   const FollowerLoad  load(plate, Vector3d::UnitX(), thrust());
   const double        u[] = {0.1, -0.2, 0.7}, v[] = {0.5, 0.3, -2.}, a[] = {0., 0., 0.};

@@ -76,7 +76,7 @@ TEST(FormulaForce, SetsTheKinksThatComeIntoPlay)
   EXPECT_EQ(history[1], -1.);
 }
 
-TEST(FormulaForce, IsNoNumberOnceARootHasLeftItsRangeForGood)
+TEST(FormulaForce, IsNotANumberOnceARootHasLeftItsRangeForGood)
 {
   const FormulaForce hertz({-5e6 * power(max(u, 0.), 1.5)}), chord({power(0.01 - abs(u), 0.5)});
   const Probe        outside = probe1(-0.02, -1.);

@@ -232,7 +232,7 @@ TEST(Formula, GoesOnAsAnOddRootBeyondAKinkOnly)
   EXPECT_TRUE(std::isnan(value_of(power(x, 1.5), at)));
 }
 
-TEST(Formula, DoesNotHideWhatIsNoNumber)
+TEST(Formula, DoesNotHideWhatIsNotANumber)
 {
   const Formula root = power(x, 0.5);
   for (const Formula &f : {max(root, 0.), min(0., root), conditional(root, Relation::above, 1., 2.), sign(root),

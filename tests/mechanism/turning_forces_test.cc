@@ -59,7 +59,7 @@ void expect_derivative(const ForceLaw &element)
   }
 }
 
-TEST(TurningForces, OfASpringBetweenTwoPointsAreTold)
+TEST(TurningForces, OfASpringBetweenTwoPointsAreReported)
 {
   RelativeMeasure distance;
   distance.form = RelativeMeasure::Form::distance;
@@ -69,7 +69,7 @@ TEST(TurningForces, OfASpringBetweenTwoPointsAreTold)
 }
 
 // A thrust that falls with the speed along itself: 5 N - 3 N s/m v.
-TEST(TurningForces, OfAFollowerLoadAreTold)
+TEST(TurningForces, OfAFollowerLoadAreReported)
 {
   const auto thrust = std::make_shared<FormulaForce>(FormulaForce::Parameters{5. - 3. * Formula::variable(2)});
   expect_derivative(FollowerLoad(on_plate({1., 0., 0.5}), Vector3d(0.6, 0., 0.8), thrust));

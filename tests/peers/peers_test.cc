@@ -163,7 +163,7 @@ TEST_P(EveryPeer, LocatesEventsAtTheZerosOfTheGuard)
   }
 }
 
-TEST_P(EveryPeer, GoesOverEventsIfToldTo)
+TEST_P(EveryPeer, SkipsEventsOnRequest)
 {
   SmallSystem system(MatrixXd::Ones(1, 1), MatrixXd::Zero(1, 1), MatrixXd::Ones(1, 1));
   system.W                = MatrixXd::Ones(1, 1).sparseView();

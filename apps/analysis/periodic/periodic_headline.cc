@@ -80,7 +80,7 @@ Headline headline_of(const PeriodicResult &result)
   const auto others  = long(result.entries.size()) - stable - unknown;
   Headline   headline{count_text(result.entries.size(), "periodic solution")};
   if (result.parameter.empty())
-    headline.sentence += "; the first has the period " + short_text(result.entries.front().solution.period, 6) + " s";
+    headline.sentence += ", the first with a period of " + short_text(result.entries.front().solution.period, 6) + " s";
   else
   {
     const auto [low, high] =

@@ -70,7 +70,7 @@ void require_effect(const std::string &key)
   if (found == without_effect().end())
     return;
   throw std::invalid_argument("--along " + key + ": this key sets " + found->second +
-                              ", which does not change the equations of motion. Choose a parameter (parameters.NAME), "
+                              ", which does not change the equations of motion; choose a parameter (parameters.NAME), "
                               "or a number of an element, a load, a drive or a body, such as element.NAME.stiffness");
 }
 

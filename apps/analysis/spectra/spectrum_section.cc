@@ -137,7 +137,8 @@ Section spectrum_section(const Result &result, const RunSpectra &found)
       "Amplitudes over the run, " + short_text(spectra.begin) + " to " + short_text(spectra.end) +
       " s, in one Hann window with " + std::to_string(spectra.samples) + " samples. Lines are " +
       short_text(spectra.resolution_hz, 3) +
-      " Hz apart; frequencies are distinguished from twice this distance. Numbers: modes of the coupled machine" +
+      " Hz apart; frequencies closer than twice this distance are not separated. Numbers: modes of the coupled "
+      "machine" +
       (drive_hz(found.orders) > 0. ? "; ticks: orders of " + found.orders->rotor : "") + ". " + rows_text(spectra)});
   int number = 0;
   for (const auto &group : by_unit(spectra))

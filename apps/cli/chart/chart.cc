@@ -142,8 +142,8 @@ std::vector<coupling::Signal> choose_signals(const Scene &scene, coupling::Machi
     std::vector<std::string> names;
     for (const coupling::Signal &signal : all)
       names.push_back(signal.name);
-    throw std::invalid_argument(std::string(file ? "--reference" : "--signals") + ": none of the scene's signals " +
-                                listed(names) + " is named there");
+    throw std::invalid_argument(std::string(file ? "--reference" : "--signals") +
+                                ": none of the signals of the scene (" + listed(names) + ") is listed there");
   }
   return chosen;
 }

@@ -91,7 +91,7 @@ void write_comparison(const ReductionComparison &comparison, const std::string &
   writing.write("reductions.csv", csv_of(comparison));
   write("reductions_cpu.svg", svg_of(comparison, "Reductions: " + scene, "CPU time of the run [s]",
                                      [](const ReductionPoint &point) { return point.run_cpu; }));
-  write("reductions_coordinates.svg", svg_of(comparison, "Reductions: " + scene, "coordinates of the frame",
+  write("reductions_coordinates.svg", svg_of(comparison, "Reductions: " + scene, "DOFs of the frame",
                                              [](const ReductionPoint &point) { return double(point.coordinates); }));
 }
 
@@ -111,7 +111,7 @@ int chart_reductions(const CommonOptions &options, const ReductionChart &request
   how.on_point = print_point;
   how.stop     = &interruption();
   how.modes    = requested.modes;
-  std::cout << "  reduction         modes  coordinates  prepare [CPU s]  run [CPU s]  largest error, of which output\n";
+  std::cout << "  reduction         modes         DOFs  prepare [CPU s]  run [CPU s]  largest error, of which output\n";
   const ReductionComparison comparison = compare_reductions(scene, outputs, how);
   OwnFolder(folder).remove_all([](const std::string &name) { return has_form(name, "charts/reductions_*"); });
   write_or_rescue(folder, [&](Writing &writing) { write_comparison(comparison, scene.name, writing); });

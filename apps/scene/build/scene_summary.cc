@@ -245,7 +245,7 @@ std::string run_text(const Scene &scene, const coupling::Machine &machine)
     return text;            // of a whole frame: as long as its factors take
   constexpr int modes = 25; // of a frame that is not made yet
   const int     n     = machine.size() + (scene.frame.source == FrameSource::geometry ? modes : 0);
-  return text + ", " + duration_text(steps * step_time(n, machine.joints().n_rows() > 0));
+  return text + ", run time " + duration_text(steps * step_time(n, machine.joints().n_rows() > 0));
 }
 
 } // namespace

@@ -156,7 +156,7 @@ std::string hint_of_large_number(const std::string &reason)
     return "a number exceeds 1.8e308, the largest possible value; write a smaller one";
   if (reason.find("not representable in 64 bits") != std::string::npos ||
       reason.find("exceeds length limit") != std::string::npos)
-    return "a number has too many digits; write it with an exponent, as 9.2e18";
+    return "a number has too many digits; write it with an exponent, such as 9.2e18";
   return "";
 }
 

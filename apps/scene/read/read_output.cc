@@ -214,10 +214,9 @@ const std::vector<Key> &output_keys()
           .from_zero()
           .by_default("1/100 of the run")
           .into(&coupling::RunOptions::picture_step),
-      key::truth(
-          "allow_large", coupling::RunOptions().allow_large,
-          "accept more than 1 GB of history and states, or 20 000 pictures, which is otherwise an error; write "
-          "every picture to `motion/`, otherwise at most 100; all files stay within 20 MB if 24 pictures fit into it")
+      key::truth("allow_large", coupling::RunOptions().allow_large,
+                 "accept more than 1 GB of history and states, or 20 000 pictures (otherwise an error), and write all "
+                 "pictures to `motion/` (otherwise at most 100, fewer to stay within 20 MB, but at least 24)")
           .into(&coupling::RunOptions::allow_large),
       key::table("stress", {}, "stresses, [see there](#stress)").by_default("none"),
       key::table("stages", {}, "parts of the run between events, [see there](#stages)").by_default("none")};

@@ -62,7 +62,7 @@ std::string LocalModes::strain(std::size_t mode) const
   if (!(share > 0.))
     return "";
   const std::string &spring = shares.springs[std::size_t(most)];
-  return share > 1. ? spring : spring + " by " + short_text(100. * share, 3) + " %"; // turning forces may be negative
+  return share > 1. ? spring : spring + " " + short_text(100. * share, 3) + " %"; // turning forces may be negative
 }
 
 ModesOfRun::ModesOfRun(const Scene &scene, const coupling::Machine &machine, const Result &result)

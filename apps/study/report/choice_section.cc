@@ -221,7 +221,7 @@ std::string choice_section(const StudyFindings &findings, Pictures &pictures)
                             chart_of(findings.table, *findings.choice, output));
       body += figure(pictures.back().second);
     }
-  return section("choice", "The best run", body);
+  return section("choice", "Best run", body);
 }
 
 } // namespace gestell::apps

@@ -14,7 +14,7 @@ namespace
 /// pixels
 constexpr double tornado_width = 640., tornado_row = 22., tornado_top = 62., name_width = 170., numbers_width = 130.;
 
-/// A row of the tornado: changes from the value in the middle.
+/// A row of the tornado: changes from the value at the midpoint.
 struct EffectBar
 {
   std::string name;
@@ -90,11 +90,11 @@ std::string row_svg(const EffectBar &bar, const ShownAxis &axis, const AxisMap &
 std::string legend_svg(bool has_interactions)
 {
   std::string svg =
-      bar_svg("f0", name_width, name_width + 16., 30.) + svg_text(name_width + 22., 44., "at from", "label") +
-      bar_svg("f1", name_width + 84., name_width + 100., 30.) + svg_text(name_width + 106., 44., "at to", "label");
+      bar_svg("f0", name_width, name_width + 16., 30.) + svg_text(name_width + 22., 44., "lower end", "label") +
+      bar_svg("f1", name_width + 84., name_width + 100., 30.) + svg_text(name_width + 106., 44., "upper end", "label");
   if (has_interactions)
     svg += bar_svg("f5", name_width + 156., name_width + 172., 30.) +
-           svg_text(name_width + 178., 44., "what two add in the corners", "label");
+           svg_text(name_width + 178., 44., "interaction of two variables", "label");
   return svg;
 }
 
@@ -117,7 +117,7 @@ std::string effect_picture(const ResponseSurface &surface, double computed)
   const double      bottom = tornado_top + tornado_row * static_cast<double>(bars.size());
   const std::string title =
       "Change of " + axis.head() + " from " + shown_axis(surface.output, std::abs(middle)).text_with_unit(middle) +
-      " in the middle" +
+      " at the midpoint" +
       (std::isfinite(computed) ? " (run: " + shown_axis(surface.output, std::abs(middle)).text(computed) + ")" : "");
 
   std::string svg =

@@ -61,7 +61,7 @@ std::string wall_text(const StudyOptimum &optimum, Eigen::Index j)
 
 std::string variables_table(const StudyFindings &findings)
 {
-  HtmlTable table({"variable", "#optimum", "#coded", "#from", "#to", ""});
+  HtmlTable table({"variable", "#optimum", "#coded", "#from", "#to", "remark"});
   for (std::size_t j = 0; j < findings.table.variables.size(); ++j)
   {
     const StudyVariable &variable = findings.table.variables[j];
@@ -96,7 +96,7 @@ std::string outputs_table(const StudyFindings &findings)
 
 std::string searches_table(const StudyFindings &findings)
 {
-  std::vector<std::string> titles = {"#search", "#objective", "limits satisfied", "#evaluations", "ends"};
+  std::vector<std::string> titles = {"#search", "#objective", "limits satisfied", "#evaluations", "termination"};
   for (const StudyVariable &variable : findings.table.variables)
     titles.push_back("#" + escape_xml(variable.name) + ", coded");
   HtmlTable table(titles);
@@ -122,9 +122,9 @@ std::string optimum_words(const StudyFindings &findings)
                      " within the ranges: " + count_text(optimum.found.evaluations, "evaluation") +
                      (optimum.found.failed > 0 ? ", " + std::to_string(optimum.found.failed) + " of them failed" : "") +
                      ".";
-  std::string html = "<p>" + escape_xml(text) +
-                     (optimum.link.empty() ? "" : " <a href=\"" + escape_xml(optimum.link) + "\">The run there</a>.") +
-                     "</p>\n";
+  std::string html =
+      "<p>" + escape_xml(text) +
+      (optimum.link.empty() ? "" : " <a href=\"" + escape_xml(optimum.link) + "\">Run at this point</a>.") + "</p>\n";
   if (!optimum.found.feasible)
     html += note_box({"No point satisfies all limits; this one violates them least."});
   if (optimum.source == "surface" && !optimum.verified)
@@ -162,7 +162,7 @@ std::string robust_table(const RobustResult &result)
 
 std::string robust_words(const RobustResult &result)
 {
-  std::string text = count_text(result.draws, "draw") + " by seed " + std::to_string(result.seed);
+  std::string text = count_text(result.draws, "draw") + ", seed " + std::to_string(result.seed);
   if (result.failed > 0)
     text += ", " + std::to_string(result.failed) + " failed and are omitted";
   text += "; limits are satisfied in " + percent(result.kept) + " ± " + percent(result.kept_error, 2) + ".";
@@ -208,13 +208,13 @@ std::string robust_section(const StudyFindings &findings)
 {
   std::string html;
   for (const RobustResult &result : findings.robust)
-    html += std::string("<h3>") + (result.source == "surface" ? "On the surfaces" : "By runs") + "</h3>\n" +
+    html += std::string("<h3>") + (result.source == "surface" ? "From the surfaces" : "From runs") + "</h3>\n" +
             robust_words(result) + robust_table(result);
   if (html.empty())
     return "";
-  return section("robust", "Under scatter of the variables",
-                 html + "<p class=\"soft\">± standard error of the sample; quantiles with the interval that holds the "
-                        "true one in 95 % of all samples.</p>\n");
+  return section("robust", "Effect of scatter of the variables",
+                 html + "<p class=\"soft\">±: standard error of the sample. Quantiles are given with their 95 % "
+                        "confidence interval.</p>\n");
 }
 
 } // namespace gestell::apps

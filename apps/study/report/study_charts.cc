@@ -106,7 +106,7 @@ std::vector<int> rows_on_front(const StudyTable &table, const std::vector<int> &
 
 std::string goal_head(const Goal &goal, const ShownAxis &axis)
 {
-  return axis.head() + (goal.sense == Sense::minimise ? ", small is good" : ", large is good");
+  return axis.head() + (goal.sense == Sense::minimise ? ", to be minimised" : ", to be maximised");
 }
 
 } // namespace
@@ -118,7 +118,7 @@ std::string slices_chart(const ResponseSurface &surface, const std::vector<Study
   const auto      k    = static_cast<Eigen::Index>(variables.size());
   Chart           chart;
   chart.title   = axis.head() + " over one variable";
-  chart.note    = "dotted: interval of confidence of the fit, " + percent(surface.level);
+  chart.note    = "dotted: confidence interval of the fit, " + percent(surface.level);
   chart.x       = {"coded value", -1., 1.};
   chart.y.label = axis.head();
   chart.width   = 330.;
@@ -128,7 +128,7 @@ std::string slices_chart(const ResponseSurface &surface, const std::vector<Study
   for (Eigen::Index i = 0; i < k; ++i)
   {
     Panel panel{range_text(variables[i]), {}};
-    add_slice(slice_through(surface, axis, Eigen::VectorXd::Zero(k), i, 0), optimum ? "others in the middle" : "",
+    add_slice(slice_through(surface, axis, Eigen::VectorXd::Zero(k), i, 0), optimum ? "others at the midpoint" : "",
               panel);
     if (optimum)
       add_slice(slice_through(surface, axis, *optimum, i, 1), "others at the optimum", panel);
@@ -155,7 +155,7 @@ std::string predicted_chart(const ResponseSurface &surface, const std::vector<in
     left_out.notes.push_back(note);
   }
   Chart chart;
-  chart.title                 = surface.output.name + ", predicted against computed";
+  chart.title                 = surface.output.name + ", predicted over computed values";
   chart.width                 = 400.;
   chart.height                = 340.;
   chart.x.label               = axis.head() + ", computed";
@@ -174,14 +174,14 @@ std::string pareto_chart(const StudyFindings &findings, int first_goal, int seco
   const ShownAxis        x = shown_axis(table.outputs[a.output], magnitude_of(table.values.col(a.output)));
   const ShownAxis        y = shown_axis(table.outputs[b.output], magnitude_of(table.values.col(b.output)));
   Chart                  chart;
-  chart.title   = table.outputs[b.output].name + " against " + table.outputs[a.output].name;
+  chart.title   = table.outputs[b.output].name + " over " + table.outputs[a.output].name;
   chart.height  = 340.;
   chart.x.label = goal_head(a, x);
   chart.y.label = goal_head(b, y);
   Panel &panel  = chart.panels.front();
   panel.curves.push_back(dots_of(table, rows, x, a.output, y, b.output, rings("runs", 5)));
   panel.curves.push_back(dots_of(table, rows_on_front(table, rows, findings.front_task), x, a.output, y, b.output,
-                                 {"runs that none dominates", {}, {}, 0, LineStyle::none, Marker::disc}));
+                                 {"non-dominated runs", {}, {}, 0, LineStyle::none, Marker::disc}));
   Curve front{"front on the surfaces", {}, {}, 1, LineStyle::full, Marker::triangle};
   if (findings.front_task.goals.size() > 2)
     front.line = LineStyle::none;

@@ -49,7 +49,7 @@ std::string overview(const StudyFindings &findings)
   }
   const std::string sentence = count_text(table.n_runs(), "run") + " of " + findings.scene + " (" +
                                design_text(findings.design) + "): " + std::to_string(table.n_done()) + " done, " +
-                               std::to_string(failed) + " failed; " + short_text(cpu, 3) + " s of processor time.";
+                               std::to_string(failed) + " failed; " + short_text(cpu, 3) + " s of CPU time.";
   return study_headline(findings, sentence).html() + folded("Variables", variables.html());
 }
 
@@ -73,13 +73,11 @@ std::string scatter_section(const StudyFindings &findings, Pictures &pictures)
   pictures.emplace_back("scatter", scatter_matrix(usable, front));
   const std::size_t n = usable.variables.size() + usable.outputs.size();
   return section(
-      "scatter", "Every run",
-      figure(pictures.back().second) +
-          "<p class=\"soft\">Above the diagonal: coefficients of correlation, which see straight lines alone." +
-          (n > most_scatter_columns
-               ? " Of " + std::to_string(n) + " columns at most " + std::to_string(most_scatter_columns) +
-                     " are shown, none that is the same in all runs."
-               : "") +
+      "scatter", "Scatter plots of all runs",
+      figure(pictures.back().second) + "<p class=\"soft\">Above the diagonal: linear correlation coefficients." +
+          (n > most_scatter_columns ? " Of " + std::to_string(n) + " columns at most " +
+                                          std::to_string(most_scatter_columns) + " are shown, without constant columns."
+                                    : "") +
           "</p>\n",
       Shown::folded);
 }
@@ -93,7 +91,9 @@ HtmlTable::Cell run_cell(const StudyTable &table, int run)
 
 std::string status_text(const StudyRun &run)
 {
-  return run.status == RunStatus::done ? "done" : run.status == RunStatus::waiting ? "waits" : "failed: " + run.message;
+  return run.status == RunStatus::done      ? "done"
+         : run.status == RunStatus::waiting ? "pending"
+                                            : "failed: " + run.message;
 }
 
 std::string runs_section(const StudyFindings &findings)
@@ -109,7 +109,7 @@ std::string runs_section(const StudyFindings &findings)
                              .emplace_back(shown_axis(table.outputs[j],
                                                       magnitude_of(table.values.col(static_cast<Eigen::Index>(j)))))
                              .head()));
-  titles.insert(titles.end(), {"#CPU [s]", "status"});
+  titles.insert(titles.end(), {"#CPU time [s]", "status"});
 
   HtmlTable     rows(titles);
   constexpr int most_rows_of_runs = 500; // some screens; runs.csv has all
@@ -131,7 +131,7 @@ std::string runs_section(const StudyFindings &findings)
   }
   if (table.n_runs() > most_rows_of_runs)
     rows.add_note("The first " + std::to_string(most_rows_of_runs) + " of " + std::to_string(table.n_runs()) +
-                  " runs; all stand in runs.csv.");
+                  " runs; all are in runs.csv.");
   return section("runs", "Runs", rows.scrolled_html());
 }
 
@@ -140,13 +140,13 @@ std::string study_contents(const std::string &body)
 {
   std::string html = "<nav>";
   for (const auto &[id, name] : {std::pair("optimum", "Optimum"),
-                                 {"choice", "The best run"},
+                                 {"choice", "Best run"},
                                  {"over", "Over a variable"},
                                  {"effects", "Effects"},
                                  {"front", "Pareto front"},
                                  {"surfaces", "Surfaces"},
                                  {"robust", "Scatter of the variables"},
-                                 {"scatter", "Every run"},
+                                 {"scatter", "Scatter plots of all runs"},
                                  {"runs", "Runs"}})
     if (body.find("<section id=\"" + std::string(id) + "\"") != std::string::npos)
       html += "<a href=\"#" + std::string(id) + "\">" + name + "</a>";
@@ -175,7 +175,7 @@ StudyReport make_study_report(const StudyFindings &findings)
   report.html = page_html({findings.name, findings.description,
                            overview(findings) + note_box(findings.warnings, "Warnings") + study_contents(body) + body,
                            "Computed with gestell " + escape_xml(findings.version) +
-                               ". All numbers stand in full precision in the .csv files beside this page."});
+                               ". Full-precision values: the .csv files next to this page."});
   return report;
 }
 

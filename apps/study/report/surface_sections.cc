@@ -44,7 +44,7 @@ std::string left_out_note(const StudyFindings &findings)
 {
   return findings.surfaces.size() > most_outputs
              ? "<p class=\"soft\">Pictures of the first " + std::to_string(most_outputs) +
-                   " outputs; the others stand in surface.csv.</p>\n"
+                   " outputs; the others are in surface.csv.</p>\n"
              : "";
 }
 
@@ -98,11 +98,11 @@ std::string quality_table(const StudyFindings &findings)
 std::string quality_words(const StudyFindings &findings)
 {
   const bool repeats = findings.surfaces.front().quality.pure_error_dof > 0;
-  return std::string("<p class=\"soft\">Predicted R²: each run predicted by the surface of all others. ") +
-         (repeats ? "Lack of fit compares what the surface leaves with what repeated runs differ by; runs of a program "
-                    "repeat "
-                    "exactly (F = ∞), so all it leaves is lack of fit."
-                  : "Without repeated runs there is no pure error to judge the lack of fit by.") +
+  return std::string(
+             "<p class=\"soft\">Predicted R²: each run is predicted by the surface fitted to all other runs. ") +
+         (repeats ? "Lack of fit compares the residual of the surface with the scatter of repeated runs. Repeated "
+                    "simulations are identical (F = ∞), so the whole residual is lack of fit."
+                  : "Without repeated runs there is no pure error for a test of the lack of fit.") +
          "</p>\n";
 }
 
@@ -156,9 +156,9 @@ std::string contours(const StudyFindings &findings, const ResponseSurface &surfa
   }
   if (first.empty())
     return "";
-  return std::string("<p>Contours over two variables, the others ") +
-         (optimum ? "at the optimum" : "in the middle of their ranges") + "; rings are runs" +
-         (optimum ? ", the diamond is the optimum" : "") + ".</p>\n<div class=\"modes\">" + first + "</div>\n" +
+  return std::string("<p>Contours over two variables, with the others ") +
+         (optimum ? "at the optimum" : "at the midpoints of their ranges") + "; rings: runs" +
+         (optimum ? "; diamond: optimum" : "") + ".</p>\n<div class=\"modes\">" + first + "</div>\n" +
          (others.empty() ? "" : folded("other pairs", "<div class=\"modes\">" + others + "</div>\n"));
 }
 
@@ -174,8 +174,8 @@ std::string coefficients_table(const ResponseSurface &surface)
                std::isnan(half) ? "–" : axis.text(half, 3), number_or_dash(b / surface.standard_errors(j), 3)});
   }
   return table.scrolled_html() +
-         "<p class=\"soft\">Of coded variables, -1 at from and +1 at to; bold where zero lies outside the interval "
-         "of " +
+         "<p class=\"soft\">Coefficients of coded variables (-1 at from, +1 at to); bold: zero is outside the "
+         "confidence interval of " +
          percent(surface.level) + ".</p>\n";
 }
 
@@ -187,7 +187,7 @@ std::string residuals_table(const ResponseSurface &surface, const std::vector<in
   constexpr double nearly_one    = 0.95; // leverage beyond which a run stands alone
   const double     high          = std::min(high_leverage * mean, nearly_one);
   HtmlTable        table({"#run", "#computed [" + escape_xml(axis.unit.empty() ? "1" : axis.unit) + "]", "#surface",
-                          "#residual", "#of the other runs", "#leverage"});
+                          "#residual", "#surface of the other runs", "#leverage"});
   constexpr int    most_residuals = 300; // rows that a reader scrolls through; runs.csv has all
   for (Eigen::Index run = 0; run < std::min<Eigen::Index>(surface.computed.size(), most_residuals); ++run)
     table.add({std::to_string(run_numbers[static_cast<std::size_t>(run)] + 1), axis.text(surface.computed(run), 6),
@@ -197,7 +197,7 @@ std::string residuals_table(const ResponseSurface &surface, const std::vector<in
   if (surface.computed.size() > most_residuals)
     table.add_note("and more runs");
   return table.scrolled_html() + "<p class=\"soft\">Leverages are " + short_text(mean, 3) +
-         " on average; a run above " + short_text(high, 3) + ", bold, draws the surface to itself.</p>\n";
+         " on average; a run above " + short_text(high, 3) + " (bold) dominates the surface near it.</p>\n";
 }
 
 std::string of_output(const StudyFindings &findings, const ResponseSurface &surface, Pictures &pictures)
@@ -239,10 +239,11 @@ std::string effects_section(const StudyFindings &findings, Pictures &pictures)
                                         effect_picture(findings.surfaces[i], middle_of(findings, findings.surfaces[i])),
                                         pictures)
                                 : unchanged_note(findings.surfaces[i]));
-  return section("effects", "Effects",
-                 "<p>By the surfaces: each variable covers its range, the others stay at their midpoints. The value "
-                 "at the midpoint is that of the surface, next to it that of the run there, if one was made.</p>\n" +
-                     first_figures(drawn_effects) + left_out_note(findings) + shares_table(findings));
+  return section(
+      "effects", "Effects",
+      "<p>Effects from the surfaces: each variable varies over its range, with the others at their midpoints. The "
+      "title gives the value of the surface at the midpoint and, if available, that of the run.</p>\n" +
+          first_figures(drawn_effects) + left_out_note(findings) + shares_table(findings));
 }
 
 std::string surfaces_section(const StudyFindings &findings, Pictures &pictures)

@@ -102,13 +102,13 @@ Headline study_headline(const StudyFindings &findings, const std::string &senten
     headline.numbers.push_back(
         {same ? axis.text_with_unit(table.values(*low, at))
               : axis.text(table.values(*low, at)) + " to " + axis.text_with_unit(table.values(*high, at)),
-         axis.name + (same ? ", the same in all runs" : "; smallest with " + settings_of(table, *low))});
+         axis.name + (same ? ": equal in all runs" : "; minimum at " + settings_of(table, *low))});
     if (findings.optimum)
     {
       const StudyOptimum &optimum = *findings.optimum;
       headline.numbers.push_back(
           {axis.text_with_unit(optimum.verified ? (*optimum.verified)[at] : optimum.found.values[at]),
-           axis.name + " at the optimum" + (optimum.verified ? ", by a run" : "")});
+           axis.name + " at the optimum" + (optimum.verified ? " (run)" : "")});
     }
   }
   return headline;
@@ -125,9 +125,10 @@ std::string over_variable_section(const StudyFindings &findings, Pictures &pictu
                             chart_svg(chart_over(findings.table, variable, int(j))));
       figures.push_back(figure(pictures.back().second));
     }
-  return figures.empty() ? ""
-                         : section("over", "Over " + escape_xml(findings.table.variables[std::size_t(variable)].name),
-                                   first_figures(figures));
+  return figures.empty()
+             ? ""
+             : section("over", "Outputs over " + escape_xml(findings.table.variables[std::size_t(variable)].name),
+                       first_figures(figures));
 }
 
 } // namespace gestell::apps

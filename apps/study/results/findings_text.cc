@@ -33,7 +33,7 @@ void tell_optimum(const StudyFindings &findings, std::ostream &text)
 {
   const StudyOptimum &optimum = *findings.optimum;
   const StudyTable   &table   = findings.table;
-  text << "optimum" << (optimum.found.feasible ? "" : ", which breaks a limit") << " on "
+  text << "optimum" << (optimum.found.feasible ? "" : ", which violates a limit") << " on "
        << (optimum.source == "surface" ? "the surface" : count_text(std::size_t(optimum.found.evaluations), "run"))
        << ":\n";
   for (std::size_t i = 0; i < table.variables.size(); ++i)
@@ -46,9 +46,9 @@ void tell_optimum(const StudyFindings &findings, std::ostream &text)
     text << "  " << std::left << std::setw(12) << table.outputs[i].name << ' '
          << quantity_text(optimum.found.values[at], table.outputs[i].unit, 5);
     if (optimum.verified)
-      text << ", by a run " << quantity_text((*optimum.verified)[at], table.outputs[i].unit, 5);
+      text << ", run " << quantity_text((*optimum.verified)[at], table.outputs[i].unit, 5);
     if (optimum.nominal)
-      text << "; in the middle of all ranges " << quantity_text((*optimum.nominal)[at], table.outputs[i].unit, 5);
+      text << "; at the midpoints of all ranges " << quantity_text((*optimum.nominal)[at], table.outputs[i].unit, 5);
     text << '\n';
   }
 }
@@ -64,7 +64,7 @@ std::string findings_text(const StudyFindings &findings)
   if (findings.optimum)
     tell_optimum(findings, text);
   if (!findings.front.empty())
-    text << "front of the goals: " << findings.front.size() << " points in front.csv\n";
+    text << "Pareto front of the goals: " << findings.front.size() << " points in front.csv\n";
   for (const RobustResult &result : findings.robust)
     for (const RobustFigures &figures : result.figures)
       text << "scatter: " << figures.output.name << " " << quantity_text(figures.mean, figures.output.unit, 5)

@@ -44,10 +44,10 @@ void warn_of_poor_fits(StudyFindings &findings)
   constexpr double least_told = 0.5; ///< of the variance of runs that are left out of the fit
   for (const ResponseSurface &surface : findings.surfaces)
     if (surface.changes() && surface.quality.predicted_r2 < least_told)
-      findings.warnings.push_back(
-          "the surface of " + surface.output.name + " foretells runs that it was not fitted to " +
-          (surface.quality.predicted_r2 > 0. ? "badly" : "no better than their mean") + " (predicted R2 " +
-          short_text(surface.quality.predicted_r2, 2) + "); narrow the ranges, make more runs, or search on runs");
+      findings.warnings.push_back("the surface of " + surface.output.name + " predicts runs outside its fit " +
+                                  (surface.quality.predicted_r2 > 0. ? "badly" : "no better than their mean") +
+                                  " (predicted R2 " + short_text(surface.quality.predicted_r2, 2) +
+                                  "); narrow the ranges, make more runs, or search with runs instead of surfaces");
 }
 
 /// The run of the design at the middle of all ranges.
@@ -242,13 +242,12 @@ StudyFindings StudyAnalysis::of(const StudyAnswer &answer)
   }
   catch (const StudyInterrupted &)
   {
-    findings.warnings.push_back("interrupted: what was not found yet is missing; runs that were made for it stand in " +
+    findings.warnings.push_back("interrupted: results are incomplete; completed runs are in " +
                                 file_.filename().string());
   }
   if (by_differences_)
-    findings.warnings.push_back(
-        "the search on runs took derivatives from differences of runs, for outputs or variables "
-        "of this study have no sensitivities");
+    findings.warnings.push_back("the search with runs used difference quotients, because outputs or variables of this "
+                                "study have no sensitivities");
   return findings;
 }
 
@@ -292,7 +291,7 @@ void StudyAnalysis::find(const StudyAnswer &answer, StudyFindings &findings)
     return;
   if (const std::string lacking = lacking_surface(surfaces); !lacking.empty())
   {
-    findings.warnings.push_back("no optimum is sought: output " + lacking +
+    findings.warnings.push_back("no optimum was computed: output " + lacking +
                                 ", which is a goal or has a limit, has no surface");
     return;
   }
@@ -302,8 +301,8 @@ void StudyAnalysis::find(const StudyAnswer &answer, StudyFindings &findings)
   {
     findings.front = pareto_front(model, request_.optimise->task, {request_.optimise->pareto, 4096, 1});
     if (findings.front.empty())
-      findings.warnings.push_back("there is no Pareto front: none of the points examined keeps all limits; widen the "
-                                  "limits or the ranges of the variables");
+      findings.warnings.push_back("there is no Pareto front: none of the examined points satisfies all limits; widen "
+                                  "the limits or the ranges of the variables");
   }
   if (request_.optimise->robust)
     findings.robust.push_back(robust_at_optimum(findings, model));

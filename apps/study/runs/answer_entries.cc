@@ -92,7 +92,7 @@ void check_signal(const Segments &segments, const Scene &scene)
   if (segments.size() < 2 || !among(names, segments[1]))
     refuse(segments, "names no signal of the scene" + suggestion(segments.size() < 2 ? "" : segments[1], names));
   if (segments.size() != 3 || !among(signal_kinds(), segments[2]))
-    refuse(segments, "does not say what of the signal: " + joined({"signals", segments[1], "max"}) +
+    refuse(segments, "does not select a value of the signal: " + joined({"signals", segments[1], "max"}) +
                          ", .min, .t_max, .t_min, .final or .range");
 }
 
@@ -100,18 +100,18 @@ void check_event(const Segments &segments, const Scene &scene)
 {
   const Segments names = event_names(scene);
   if (segments.size() < 2 || !among(names, segments[1]))
-    refuse(segments, "names nothing of the scene that events happen to" +
-                         suggestion(segments.size() < 2 ? "" : segments[1], names));
+    refuse(segments,
+           "names no object of the scene that has events" + suggestion(segments.size() < 2 ? "" : segments[1], names));
   if (segments.size() > 4)
     refuse(segments,
            "has too many parts; an event is written events.NAME.KIND, with .first, .last, .count or a number");
   if (segments.size() == 4 && !is_choice(segments[3]))
-    refuse(segments, "does not say which of the events: .first, .last, .count or a number" +
+    refuse(segments, "does not select an event: .first, .last, .count or a number" +
                          suggestion(segments[3], {"first", "last", "count"}));
   if (segments.size() > 2 && !(segments.size() == 3 && is_choice(segments[2])) && !is_event_kind(segments[2]))
     refuse(segments, "names '" + segments[2] + "', which is not a kind of event" +
                          suggestion(segments[2], kinds_and_choices()) +
-                         "; the kinds that occur stand in summary.json of a run");
+                         "; summary.json of a run lists the kinds that occur");
 }
 
 AnswerValue signal_value(const Segments &segments, const coupling::RunResult &run)
@@ -193,7 +193,7 @@ AnswerValue summary_value(const Segments &segments, const Result &result)
     else if (node->is_object() && node->contains(segment))
       node = &(*node)[segment];
     else
-      refuse(segments, "is not a number of a run's summary.json: there is no '" + segment + "'" +
+      refuse(segments, "is not a number in summary.json of a run: there is no '" + segment + "'" +
                            (node->is_array() ? " among " + std::to_string(node->size()) + " entries, counted from 1"
                                              : suggestion(segment, keys_of(*node))));
   }
@@ -202,8 +202,8 @@ AnswerValue summary_value(const Segments &segments, const Result &result)
   if (node->is_null())
     return {never, ""};
   if (!node->is_number())
-    refuse(segments, "is not a number in a run's summary.json" +
-                         (node->is_object() ? "; name one of its entries: " + listed(keys_of(*node)) : ""));
+    refuse(segments, "is not a number in summary.json of a run" +
+                         (node->is_object() ? "; name one of its members: " + listed(keys_of(*node)) : ""));
   return {node->get<double>(), unit_in_summary(segments, all["units"])};
 }
 
@@ -226,11 +226,11 @@ void check(const std::vector<std::string> &segments, const Scene &scene)
   else if (is_mode(segments) &&
            (segments.size() != 2 || !is_count(segments[1]) || std::stoi(segments[1]) > scene.modes.number))
     refuse(segments, "needs the number of a mode from 1 to " + std::to_string(scene.modes.number) +
-                         "; modes.number of the scene sets how many are listed");
+                         "; modes.number of the scene is the number of listed modes");
   else if (segments.front() == "stress" && !scene.stress.given)
-    refuse(segments, "asks for stresses, which the scene does not compute; give it [output.stress]");
+    refuse(segments, "requests stresses, which the scene does not compute; add [output.stress]");
   else if (segments.front() == "life" && !scene.life)
-    refuse(segments, "asks for fatigue, which the scene does not compute; give it [life]");
+    refuse(segments, "requests fatigue, which the scene does not compute; add [life]");
 }
 
 AnswerValue value(const std::vector<std::string> &segments, const Result &result)

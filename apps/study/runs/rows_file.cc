@@ -98,7 +98,7 @@ RunRow RowsText::row(const std::string &line) const
   const std::vector<std::string> cells    = csv_cells(line);
   const std::size_t              expected = 3 + variables_.size() + outputs_.size();
   if (cells.size() != expected)
-    throw std::invalid_argument("has " + std::to_string(cells.size()) + " cells in place of " +
+    throw std::invalid_argument("has " + std::to_string(cells.size()) + " cells instead of " +
                                 std::to_string(expected));
   RunRow row;
   row.run    = whole_number(cells[0]);
@@ -123,7 +123,7 @@ std::vector<RunRow> read_rows(const std::filesystem::path &file, const RowsText 
     const std::string place = file.string() + ":" + std::to_string(number) + ": ";
     if (number == 1 && !text.is_head(line))
       throw std::invalid_argument(place + "has other columns than this study: " + line +
-                                  "; give each study a folder of its own with -o");
+                                  "; use a separate folder for each study (-o)");
     try
     {
       if (number > 1)
@@ -131,7 +131,7 @@ std::vector<RunRow> read_rows(const std::filesystem::path &file, const RowsText 
     }
     catch (const std::invalid_argument &error)
     {
-      throw std::invalid_argument(place + error.what() + "; remove the line, and its run is made again");
+      throw std::invalid_argument(place + error.what() + "; remove the line to repeat its run");
     }
   }
   return rows;
@@ -145,8 +145,9 @@ RowsFile::RowsFile(const std::filesystem::path &file) : path_(file)
   if (flock(file_, LOCK_EX | LOCK_NB) != 0)
   {
     close(file_);
-    throw std::invalid_argument(file.string() + ": another gestell study is writing it; give each study a folder of "
-                                                "its own with -o, or wait until that one has ended");
+    throw std::invalid_argument(
+        file.string() +
+        ": another gestell study is writing it; use a separate folder for each study (-o), or wait until it ends");
   }
   std::ifstream in(file);
   std::string   line;

@@ -83,8 +83,7 @@ void SceneVariants::check_measure(const RunParameter &measure) const
   const auto names = names_in(root().find("parameters"));
   if (std::find(names.begin(), names.end(), measure.parameter) == names.end())
     measure.place.fail("scene.measure." + measure.parameter + ": " + study_.scene +
-                       " has no such parameter, whose value would be the first guess" +
-                       suggestion(measure.parameter, names));
+                       " has no such parameter, whose value is the first guess" + suggestion(measure.parameter, names));
   for (const VariableRequest &request : study_.variables)
     for (const std::string &key : request.keys)
       if (key == "parameters." + measure.parameter)
@@ -102,12 +101,12 @@ void SceneVariants::check_key(const VariableRequest &request, const std::string 
     const bool       leaf = i + 1 == path.size();
     if (next && leaf && next->type == SceneNode::Type::table && request.choices.empty())
       throw std::invalid_argument(request.place + ": '" + key + "' is a table of the scene (" + next->place.text() +
-                                  "); name one of its entries: " + listed(names_in(next)));
+                                  "); name one of its keys: " + listed(names_in(next)));
     if (!next && leaf && i > 0 && path.front() != "parameters")
       return; // an entry that may be left out: its reader knows it
     if (!next)
       throw std::invalid_argument(request.place + ": " + study_.scene + " has no " +
-                                  (path.front() == "parameters" && i > 0 ? "parameter '" : "entry '") + path[i] + "'" +
+                                  (path.front() == "parameters" && i > 0 ? "parameter '" : "key '") + path[i] + "'" +
                                   (i > 0 ? " in " + path[i - 1] : "") + suggestion(path[i], names_in(node)));
     node = next;
   }

@@ -51,10 +51,8 @@ StudyShare share_of(const std::string &text)
   }
   catch (const std::logic_error &)
   {
-    throw std::invalid_argument(
-        "--share " + text +
-        ": needs the number of a part and how many there are, such as 3/10; the first is not above the "
-        "second, none is below 1");
+    throw std::invalid_argument("--share " + text +
+                                ": needs part/number of parts, such as 3/10, with 1 <= part <= number");
   }
   return share;
 }
@@ -95,11 +93,12 @@ void StudyFolder::refuse_other_study() const
 {
   const auto before = read_record(folder_ / "study.json");
   if (!before && fs::exists(folder_ / "runs.csv"))
-    throw std::invalid_argument(folder_.string() + ": holds a runs.csv of which no study.json tells the study; give "
-                                                   "another folder with -o");
+    throw std::invalid_argument(
+        folder_.string() + ": contains a runs.csv without the study.json of its study; name another folder with -o");
   if (before && before->study != record_.study)
-    throw std::invalid_argument(folder_.string() + ": holds rows of the study '" + before->study + "', this one is '" +
-                                record_.study + "'; give each study a folder of its own with -o");
+    throw std::invalid_argument(folder_.string() + ": contains rows of the study '" + before->study +
+                                "', but this study is '" + record_.study +
+                                "'; use a separate folder for each study (-o)");
 }
 
 void StudyFolder::refuse_changes() const
@@ -117,7 +116,7 @@ void StudyFolder::refuse_changes() const
   if (changes.size() > most_listed)
     text += "\n  and " + std::to_string(changes.size() - most_listed) + " further ones";
   throw std::invalid_argument(folder_.string() + ": its rows were computed before the study was changed:" + text +
-                              "\n  undo the change, or give another folder with -o");
+                              "\n  undo the change, or name another folder with -o");
 }
 
 /// In the list of what is ours, before the files appear.
@@ -133,9 +132,9 @@ std::vector<RunRow> StudyFolder::begun_anew()
   const auto        before = read_record(folder_ / "study.json");
   const std::size_t there  = n_lines(folder_ / "runs.csv");
   if (before && there > 0 && int(there) < before->n_runs)
-    throw std::invalid_argument(folder_.string() + ": holds " + std::to_string(there) + " of " +
+    throw std::invalid_argument(folder_.string() + ": contains " + std::to_string(there) + " of " +
                                 std::to_string(before->n_runs) +
-                                " rows of this study; go on with --resume, or remove runs.csv to start again");
+                                " rows of this study; continue with --resume, or remove runs.csv to start again");
   fs::create_directories(folder_);
   enter_own("runs.csv");
   fs::remove(folder_ / "runs.csv");
@@ -150,10 +149,8 @@ bool StudyFolder::begins_anew(Begin begin, const StudyShare &share) const
     return false;
   const std::size_t there = n_lines(folder_ / "runs.csv");
   if (!share.is_whole() && !share.together && there > 0)
-    throw std::invalid_argument(
-        folder_.string() + ": holds " + std::to_string(there) +
-        " rows of this study already; make what is missing with --resume, or remove runs.csv to "
-        "start again");
+    throw std::invalid_argument(folder_.string() + ": contains " + std::to_string(there) +
+                                " rows of this study; complete them with --resume, or remove runs.csv to start again");
   return share.is_whole() || (share.together && there > 0);
 }
 
@@ -166,8 +163,8 @@ std::vector<RunRow> StudyFolder::open(Begin begin, const StudyShare &share)
   if (shares || n_lines(folder_ / "runs.csv") > 0)
     refuse_changes();
   if (begin == Begin::anew && !share.is_whole() && n_lines(rows_file(share)) > 0)
-    throw std::invalid_argument(rows_file(share).string() + ": holds rows of this share already; go on with --resume, "
-                                                            "or remove it");
+    throw std::invalid_argument(rows_file(share).string() +
+                                ": already contains rows of this share; continue with --resume, or remove it");
   std::vector<RunRow> known = rows();
   fs::create_directories(folder_);
   enter_own(name_of(share));

@@ -119,7 +119,7 @@ std::optional<StudyRecord> read_record(const std::filesystem::path &file)
   {
     throw std::invalid_argument(
         file.string() +
-        ": is not a record of a study; remove it with the rows beside it, or give another folder with -o");
+        ": is not a record of a study; remove it together with its rows, or name another folder with -o");
   }
 }
 
@@ -146,7 +146,7 @@ std::vector<std::string> differences(const StudyRecord &before, const StudyRecor
   }
   for (const auto &[key, value] : before.entries)
     if (!now.entries.count(key))
-      texts.push_back(key + " was " + value + ", is gone");
+      texts.push_back(key + " was " + value + ", is removed");
   return texts;
 }
 

@@ -45,7 +45,7 @@ Eigen::VectorXd entry_derivative(const std::vector<std::string> &path, const Sen
   for (const SensitivityOutput &output : found.outputs)
     if (output.output == name && output.derivative.allFinite())
       return output.derivative;
-  throw std::invalid_argument("the run tells no derivative of " + name);
+  throw std::invalid_argument("the run has no derivative of " + name);
 }
 
 /// Entries of the scene by which a run is differentiated for these variables, "parameters.c_P,parameters.s_cl".
@@ -184,7 +184,7 @@ Result StudyRunner::settled_result(const Eigen::VectorXd &levels, const std::ato
     if (attempt == most_attempts)
       throw std::invalid_argument(measures_.front().place.text() + ": scene.measure: after " +
                                   std::to_string(most_attempts) +
-                                  " runs the values of their own parameters has not settled; is the event reached?");
+                                  " runs the parameter values have not converged; check that the event occurs");
   }
 }
 

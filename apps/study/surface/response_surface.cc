@@ -120,7 +120,7 @@ void check_fit(const Eigen::MatrixXd &coded, const Eigen::VectorXd &y, const Stu
     throw std::invalid_argument("study: surface of " + output.name + ": a run has no finite value");
   if (!(level > 0. && level < 1.))
     throw std::invalid_argument("study: surface: confidence is " + short_text(level) +
-                                "; it must lie between 0 and 1, such as 0.95");
+                                "; it must be between 0 and 1, such as 0.95");
 }
 
 std::vector<std::string> names_of(const std::vector<StudyVariable> &variables)
@@ -172,7 +172,7 @@ std::string missing_text(const StudyTable &table, std::size_t n_with)
   const int failed = table.n_runs() - table.n_done(), valueless = table.n_done() - int(n_with);
   if (failed + valueless == 0)
     return "";
-  return " (" + std::to_string(failed) + " of " + count_text(table.n_runs(), "run") + " failed or wait" +
+  return " (" + std::to_string(failed) + " of " + count_text(table.n_runs(), "run") + " failed or are pending" +
          (valueless > 0 ? ", " + std::to_string(valueless) + " have no value of it)" : ")");
 }
 

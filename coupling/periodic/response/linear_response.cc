@@ -270,7 +270,7 @@ LinearResponse::LinearResponse(const SecondOrderSystem &system, const OperatingP
   if (!system.linear().dense_matrices(own.M, own.B, own.C))
     throw std::invalid_argument("frequency response: the base system is sparse and has " +
                                 std::to_string(system.linear().size()) +
-                                " coordinates; reduce the frame (reduction.method = \"craig-bampton\")");
+                                " DOFs; reduce the frame (reduction.method = \"craig-bampton\")");
   if (system.forces().need_multipliers())
     throw std::invalid_argument("frequency response: friction in ideal joints depends on their forces, whose "
                                 "derivatives are not available; remove it, or make the joint compliant");

@@ -316,13 +316,12 @@ public:
       constexpr int most_trials = 4; // of one size: gmsh meets the wanted number of cells to some ten per cent
       if (trial == most_trials || (!fits && room < distinctly_finer * n0))
       {
-        stopped_ =
-            fits ? "gmsh cannot make a mesh with clearly more than " + std::to_string(std::lround(n0)) + " coordinates"
-                 : "the next mesh would have " + std::to_string(std::lround(n)) + " coordinates, more than the " +
-                       (allowed < options_.max_coordinates
-                            ? std::to_string(std::lround(allowed)) + " that the available memory of " +
-                                  fem::memory_text(available()) + " allows"
-                            : std::to_string(options_.max_coordinates) + " allowed");
+        stopped_ = fits ? "gmsh cannot make a mesh with clearly more than " + std::to_string(std::lround(n0)) + " DOFs"
+                        : "the next mesh would have " + std::to_string(std::lround(n)) + " DOFs, more than the " +
+                              (allowed < options_.max_coordinates
+                                   ? std::to_string(std::lround(allowed)) + " that the available memory of " +
+                                         fem::memory_text(available()) + " allows"
+                                   : std::to_string(options_.max_coordinates) + " allowed");
         return {};
       }
       // n = n0 ratio^a

@@ -145,7 +145,7 @@ MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatric
   const bool       thin_walls         = walls.thin_share > thin;
   const auto [error, highest, raised] = modal_mesh_error(reduced, frame, mesh_error, thin_walls);
   bool        warns                   = false;
-  std::string text                    = "mesh: " + std::to_string(reduced.frame.n_full) + " coordinates";
+  std::string text                    = "mesh: " + std::to_string(reduced.frame.n_full) + " DOFs";
   if (error.size() > 0)
   {
     const double low = error.minCoeff(), high = error.maxCoeff();
@@ -172,8 +172,7 @@ MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatric
       text += std::string("; `gestell modes --converge 0.01` of a frame from CAD refines until they are within 1 %") +
               (mesh.cells.empty() || !mesh.hexahedra.empty()
                    ? ""
-                   : ", hexahedra through thin walls (mesh.plates = \"swept\") need far fewer "
-                     "coordinates");
+                   : ", hexahedra through thin walls (mesh.plates = \"swept\") need far fewer DOFs");
   }
   return {std::move(text), warns};
 }

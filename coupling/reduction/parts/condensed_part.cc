@@ -151,7 +151,7 @@ MatrixXd condensed(const FrontSelection &all, const PartOfFrame &part, const Spa
   const Index   n1     = Index(part.held.size());
   const Fronts  fronts = all.fronts();
   const int     n2     = fronts.n - int(n1);
-  fem::require_available("parts: " + part.name + " with " + std::to_string(n1) + " interface coordinates",
+  fem::require_available("parts: " + part.name + " with " + std::to_string(n1) + " interface DOFs",
                          sizeof(double) * (double(multifrontal_workspace(fronts)) + double(n1) * double(n1)),
                          "Use fewer parts, or a coarser mesh.");
   MatrixXd     S = MatrixXd::Zero(n1, n1);

@@ -65,7 +65,7 @@ void InpSets::resolve(const std::string &name, Set &set)
     for (auto at = std::find(open_.begin(), open_.end(), name); at != open_.end(); ++at)
       ring += "\"" + *at + "\" names ";
     throw std::invalid_argument("set " + ring + "\"" + name +
-                                "\", and so itself; remove one of these lines from the sets.");
+                                "\", which is a cycle; remove one of these lines from the sets.");
   }
   constexpr std::size_t deepest_sets = 200; // each takes some of the stack
   if (open_.size() >= deepest_sets)

@@ -98,7 +98,7 @@ TEST(BodyFromCad, RotorTakesTheInertiaAboutItsAxisAndWarnsOfUnbalance)
   const auto nearby = Drawing(disc).scene("cad = \"part.geo\"\n" + rotor + "position = [\"30 mm\", \"7 m\", 0]\n");
   EXPECT_NEAR(nearby.bodies.at(0).inertia, 0.5 * M * 0.04 + M * 0.0009, 1e-9 * M) << "Steiner's theorem";
   ASSERT_EQ(nearby.warnings.size(), 1u);
-  EXPECT_THAT(nearby.warnings[0], HasSubstr("body.b.cad: the centre of mass lies 30 mm off the axis"));
+  EXPECT_THAT(nearby.warnings[0], HasSubstr("body.b.cad: the centre of mass is 30 mm off the axis"));
 }
 
 TEST(BodyFromCad, SliderAndPointTakeTheMassOfAllSolids)
@@ -110,7 +110,7 @@ TEST(BodyFromCad, SliderAndPointTakeTheMassOfAllSolids)
   EXPECT_NEAR(two.body("type = \"point\"\nmaterial = { E = 1e9, nu = 0.3, rho = 1000 }\n").mass, 4.8, 1e-8);
 }
 
-TEST(BodyFromCad, ADensityNoSolidHasIsRefusedAsAPlainNumberAndElseWarnedOf)
+TEST(BodyFromCad, ADensityNoSolidHasIsRefusedAsAPlainNumberAndElseGivesAWarning)
 {
   const Drawing     drawing(cuboid);
   const std::string point = "cad = \"part.geo\"\ntype = \"point\"\n";
@@ -124,7 +124,7 @@ TEST(BodyFromCad, ADensityNoSolidHasIsRefusedAsAPlainNumberAndElseWarnedOf)
   EXPECT_TRUE(drawing.scene(point + "density = 7850\n").warnings.empty());
 }
 
-TEST(BodyFromCad, WhatIsMissingContradictsOrIsNoSolidIsRefused)
+TEST(BodyFromCad, WhatIsMissingContradictsOrIsNotASolidIsRefused)
 {
   const Drawing     drawing(cuboid);
   const std::string cad   = "cad = \"part.geo\"\ntype = \"planar\"\nnormal = [0, 1, 0]\n",

@@ -132,7 +132,7 @@ TEST(CasesOfRanks, OfStudiesAreRefusedToo)
   EXPECT_EQ(count(read(cases.folder / "in0/study/runs.csv"), ",done,"), 4);
 }
 
-TEST(CasesOfRanks, RanksWithoutWorkAreTold)
+TEST(CasesOfRanks, RanksWithoutWorkAreReported)
 {
   const Folder folder("idle_ranks");
   const Answer run = on_ranks(2, program +

@@ -164,7 +164,7 @@ TEST(ChartTable, HoldsEveryRunWithItsCounts)
   EXPECT_EQ(table.number(6, "tolerance"), 1e-2);
 }
 
-TEST(ChartPicture, ShowsEveryMethodAndNothingThatIsNoNumber)
+TEST(ChartPicture, ShowsEveryMethodAndNothingThatIsNotANumber)
 {
   WorkPrecision chart   = example();
   chart.points[5].error = std::nan("");

@@ -10,7 +10,7 @@
 
 using namespace gestell::apps;
 
-TEST(Commands, TellWhatTheyDoWithAnExampleOfTheirOwn)
+TEST(Commands, ReportWhatTheyDoWithAnExampleOfTheirOwn)
 {
   std::set<std::string> names;
   for (const Command &command : commands())

@@ -19,7 +19,7 @@ TEST(CompareOption, OfModesWritesPairsAndTheirPicture)
   EXPECT_NE(read(folder.results() / "report.html").find("<section id=\"compared-modes\""), std::string::npos);
 }
 
-TEST(CompareOption, OfARunDrawsBothAndTellsItsLoads)
+TEST(CompareOption, OfARunDrawsBothAndReportsItsLoads)
 {
   const Folder      folder("compare_run");
   const std::string press = scene("press_minimal.toml");

@@ -38,7 +38,7 @@ TEST(Completion, OfAShellThatIsNotKnownIsRefused)
 }
 
 // Every command stands in it with its own options.
-TEST(ManPage, TellsAllThatHelpTells)
+TEST(ManPage, ReportsAllThatHelpReports)
 {
   const std::string page = gestell("--man").text;
   for (const char *part : {".TH GESTELL 1", "gestell periodic", "\\-\\-sensitivities", ".SH EXIT STATUS", "[KIND]"})

@@ -133,7 +133,7 @@ TEST(CraneFrame, WeighsMoreOnTheSideOfItsBoom)
     sum += run.signal(wheel, "final");
   EXPECT_NEAR(sum, 24400. * 9.81, 1e-4 * sum);
   EXPECT_GT(run.signal("F_vl", "final"), 1.3 * run.signal("F_vr", "final"));
-  EXPECT_TRUE(run.answer.says("never came to the border 'limiter'"));
+  EXPECT_TRUE(run.answer.says("did not reach the stage boundary 'limiter'"));
 }
 
 TEST(CraneFrame, TipsWhereItReachesTooFar)

@@ -79,7 +79,7 @@ protected:
   Folder folder_{"force_bandwidth_check"};
 };
 
-TEST_P(Shock, IsToldWithTheErrorThatManyMoreModesShow)
+TEST_P(Shock, IsReportedWithTheErrorThatManyMoreModesShow)
 {
   const Answer rough   = run("60 Hz");
   const auto   model   = history();

@@ -54,17 +54,17 @@ protected:
   Folder folder_{"frame_answers"};
 };
 
-TEST_F(FrameAnswers, FreeMotionsHaveNoFrequencyAndAreNamed)
+TEST_F(FrameAnswers, RigidBodyModesHaveNoFrequencyAndAreNamed)
 {
   const Answer answer = ask("modes", block(""));
   ASSERT_EQ(answer.exit_code, 0) << answer.text;
-  EXPECT_EQ(count(answer.text, "   rigid motion\n"), 6) << answer.text;
+  EXPECT_EQ(count(answer.text, "   rigid-body mode\n"), 6) << answer.text;
   EXPECT_EQ(count(answer.text, "   rigid-body mode: no stiffness\n"), 6) << answer.text;
   EXPECT_FALSE(answer.says("unstable")) << answer.text;
 }
 
 /// The top is 0.2 x 0.1 m; up to half of that beside it is taken, and more along the way of a guide.
-TEST_F(FrameAnswers, JointsFarFromTheFacesOfTheirInterfaceAreWarnedOf)
+TEST_F(FrameAnswers, JointsFarFromTheFacesOfTheirInterfaceGiveAWarning)
 {
   const auto pendulum = [](const std::string &type, const std::string &at, const Keys &more = {})
   {
@@ -89,7 +89,7 @@ TEST_F(FrameAnswers, JointsFarFromTheFacesOfTheirInterfaceAreWarnedOf)
 }
 
 /// Also its own node; what an interface guides may be anywhere along its way.
-TEST_F(FrameAnswers, NodesFarFromTheFacesOfTheirInterfaceAreWarnedOf)
+TEST_F(FrameAnswers, NodesFarFromTheFacesOfTheirInterfaceGiveAWarning)
 {
   const auto at = [](const std::string &position)
   {
@@ -131,7 +131,7 @@ std::string foundation(const std::string &values)
   return "[frame.support.foot]\nsurface = \"foot\"\nfoundation = { " + values + " }\n";
 }
 
-TEST_F(FrameAnswers, CheckTellsOfAFrameThatFallsInTheLineOfRun)
+TEST_F(FrameAnswers, CheckReportsAFrameThatFallsInTheLineOfRun)
 {
   const std::string nothing = "no support constrains the frame as a whole";
   const Answer      checked = ask("check", block("")), run = ask("run", block(""));
@@ -153,7 +153,7 @@ TEST_F(FrameAnswers, CheckTellsOfAFrameThatFallsInTheLineOfRun)
   }
 }
 
-TEST_F(FrameAnswers, CheckTellsOfSupportsThatLeaveADirectionFree)
+TEST_F(FrameAnswers, CheckReportsSupportsThatLeaveADirectionFree)
 {
   const std::string nothing = "no support constrains the frame as a whole";
   for (const std::string &slips :
@@ -175,7 +175,7 @@ std::string chain(const std::string &lowest, const std::string &more = "")
   return mass_chain(lowest) + steps("1 ms", "0.1 s") + signals("x = 'frame.top.uz'") + more;
 }
 
-TEST_F(FrameAnswers, CheckTellsOfFramesFromMatricesThatFall)
+TEST_F(FrameAnswers, CheckReportsFramesFromMatricesThatFall)
 {
   const std::string nothing = "no support constrains the frame as a whole", reduced = "[reduction]\nmodes = 1\n";
   for (const std::string &more : {std::string(), reduced})
@@ -189,7 +189,7 @@ TEST_F(FrameAnswers, CheckTellsOfFramesFromMatricesThatFall)
   }
 }
 
-TEST_F(FrameAnswers, WhatWasCheckedAndIsInOrderIsNoWarning)
+TEST_F(FrameAnswers, WhatWasCheckedAndIsInOrderIsNotAWarning)
 {
   std::string scene = block(support);
   scene.replace(scene.find("0.1 m"), 5, "0.05 m");
@@ -199,7 +199,7 @@ TEST_F(FrameAnswers, WhatWasCheckedAndIsInOrderIsNoWarning)
   EXPECT_EQ(read(folder_.results() / "report.html").find("class=\"warnings\""), std::string::npos);
 }
 
-TEST_F(FrameAnswers, ModesAboveTheRangeOfTheModelStandBelowALineThatSaysSo)
+TEST_F(FrameAnswers, ModesAboveTheRangeOfTheModelAreBelowALineThatSaysSo)
 {
   const Answer answer = ask("modes", block(support + "[reduction]\nfrequency = \"200 Hz\"\n"));
   ASSERT_EQ(answer.exit_code, 0) << answer.text;
@@ -294,7 +294,7 @@ TEST_F(FrameAnswers, AConvergenceKeepsTheRowsOfItsMeshes)
   EXPECT_GE(count(read(folder_.results() / "mesh_convergence.csv"), "\n"), 3);
 }
 
-TEST_F(FrameAnswers, AStaticStartOfAFreeFrameNamesTheFrameAndWhatHelps)
+TEST_F(FrameAnswers, AStaticInitialStateOfAFreeFrameNamesTheFrameAndWhatHelps)
 {
   const Answer answer = ask("run", block(rest));
   EXPECT_EQ(answer.exit_code, 2);
@@ -306,7 +306,7 @@ TEST_F(FrameAnswers, AStaticStartOfAFreeFrameNamesTheFrameAndWhatHelps)
   EXPECT_EQ(floats.exit_code, 0) << floats.text;
 }
 
-TEST_F(FrameAnswers, AStaticStartOfABodyThatFallsNamesTheBody)
+TEST_F(FrameAnswers, AStaticInitialStateOfABodyThatFallsNamesTheBody)
 {
   std::string scene = block(support + rest);
   scene.replace(scene.find("500 N/mm"), 8, "0 N/mm");

@@ -137,7 +137,7 @@ TEST_F(FrameCacheCommand, RefusesWhatCannotBeMeant)
   EXPECT_TRUE(std::filesystem::exists(kept()));
 }
 
-TEST_F(FrameCacheCommand, ThatCannotKeepAFrameIsToldButNotInTheFrameThatIsPassedOn)
+TEST_F(FrameCacheCommand, ThatCannotKeepAFrameIsReportedButNotInTheFrameThatIsPassedOn)
 {
   const auto        frame  = [&] { return read(folder.results() / "reduced_frame.h5"); };
   const std::string reduce = "reduce " + scene + folder.option() + "--set reduction.modes=1";

@@ -55,7 +55,7 @@ TEST(JsonAnswer, HoldsTheLinesOfTheText)
   EXPECT_DOUBLE_EQ(json["answer"]["run"]["step_s"], 1e-5);
 }
 
-TEST(JsonAnswer, OfWrongInputTellsPlaceValueNeedAndWayOut)
+TEST(JsonAnswer, OfWrongInputGivesLocationValueRequirementAndRemedy)
 {
   const std::string press = scene("press_minimal.toml");
   const Json        error = document("check " + press + " --set 'run.step=0'", 2)["error"];
@@ -75,7 +75,7 @@ TEST(JsonAnswer, OfWrongInputTellsPlaceValueNeedAndWayOut)
 
 /// An end by a switch that is to end the run, and one where a law has no value: both with their error and as many
 /// findings as warnings and errors.
-TEST(JsonAnswer, OfARunThatEndsEarlyTellsWhy)
+TEST(JsonAnswer, OfARunThatEndsEarlyReportsWhy)
 {
   const std::string slide = "[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 1\n"
                             "[start]\nv = { slide = 1 }\n[run]\nstep = \"1 ms\"\nend = \"0.1 s\"\n"
@@ -103,7 +103,7 @@ TEST(JsonAnswer, OfARunThatEndsEarlyTellsWhy)
   EXPECT_EQ(by_law["answer"]["findings"][0]["place"], "law");
 }
 
-TEST(JsonAnswer, OfAMessageOfAnyLengthIsTold)
+TEST(JsonAnswer, OfAMessageOfAnyLengthIsReported)
 {
   const Json of_name = document("check 'x:99999999999999999999: y.toml'", 2);
   EXPECT_NE(of_name["error"].dump().find("y.toml"), std::string::npos) << of_name.dump();

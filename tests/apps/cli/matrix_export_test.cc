@@ -114,7 +114,7 @@ TEST(DmigExport, OfAFrameWithoutDampingHasNoneAndComesBackWithoutAWarning)
   EXPECT_EQ(scene.frame.matrices.B.nonZeros(), 0);
 }
 
-TEST(ImportedFrame, IsProvedByCheckAndWarnedOfWithExitCodes)
+TEST(ImportedFrame, IsProvedByCheckAndGivesAWarningWithExitCodes)
 {
   const tests::Folder folder("imported");
   const std::string   cards = "DMIG,KAAX,0,6,2\nDMIG,KAAX,1,1,,1,1,2.e6\nDMIG,KAAX,2,1,,1,1,-2.e6,,+\n,2,1,2.e6\n"

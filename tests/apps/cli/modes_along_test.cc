@@ -295,7 +295,7 @@ TEST(ModesAlong, TechnologicalForcesRest)
 }
 
 // Nothing holds the load: it would fall out of every equilibrium.
-TEST(ModesAlong, WithoutEquilibriumThePositionIsUndeformedAndThisIsTold)
+TEST(ModesAlong, WithoutEquilibriumThePositionIsUndeformedAndThisIsReported)
 {
   const AlongResult result = along(load_on_rope, of("trolley", 3, "0 m", "1 m"));
   for (const auto &at : result.modes.positions)
@@ -307,7 +307,7 @@ TEST(ModesAlong, WithoutEquilibriumThePositionIsUndeformedAndThisIsTold)
   expect_words(apps::along_warnings(result).front(), "load.uz");
 }
 
-TEST(ModesAlong, BadInputIsTold)
+TEST(ModesAlong, BadInputIsReported)
 {
   expect_words(complaint(slider_crank, of("cranc")), "did you mean 'crank'");
   expect_words(complaint(slider_crank, of("crank", 1)), "--positions is 1");

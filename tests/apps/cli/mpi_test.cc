@@ -173,7 +173,7 @@ TEST(Mpi, AFactorOfOneProcessIsRefusedWhereAFrameIsComputed)
   EXPECT_EQ(call(folder, ranks(2), reduce).exit_code, 0) << "a frame from the cache needs none";
 }
 
-TEST(Mpi, WrongInputIsToldOnceAndEndsAllRanks)
+TEST(Mpi, WrongInputIsReportedOnceAndEndsAllRanks)
 {
   const Folder folder("mpi_wrong");
   const Answer answer = call(folder, ranks(2), "reduce " + plate(folder) + " --set reduction.modes=-3");
@@ -182,7 +182,7 @@ TEST(Mpi, WrongInputIsToldOnceAndEndsAllRanks)
   EXPECT_EQ(count(call(folder, ranks(2), "dance").text, "there is no command 'dance'"), 1);
 }
 
-TEST(Mpi, AFrameWithALoosePartIsToldOnceAndEndsAllRanks)
+TEST(Mpi, AFrameWithALoosePartIsReportedOnceAndEndsAllRanks)
 {
   const Folder      folder("mpi_loose");
   const std::string chain = "reduce " + folder.file("chain.toml", test::reduced_chain);

@@ -76,7 +76,7 @@ TEST_F(NodeTable, DrawsTheFrame)
   EXPECT_EQ(dense.displacement.cwiseAbs().sum(), 2.F);
 }
 
-TEST_F(NodeTable, MistakesAreToldWithFileLineAndRemedy)
+TEST_F(NodeTable, MistakesAreReportedWithFileLineAndRemedy)
 {
   const std::string head = "name,x,y,z,uz\n";
   expect(complaint("name,x,y,w\n"), {"scene.toml:", "nodes.csv:1: column 'w'", "valid: "});
@@ -103,7 +103,7 @@ TEST_F(NodeTable, MistakesAreToldWithFileLineAndRemedy)
   expect(complaint(table, nodes + "node_displacements = \"d.mtx\"\n"), {"is 1 x 1, but must be 6 x 4"});
 }
 
-TEST_F(NodeTable, MatricesThatCannotBeAFrameAreToldWithTheirRow)
+TEST_F(NodeTable, MatricesThatCannotBeAFrameAreReportedWithTheirRow)
 {
   const auto with = [&](const std::string &mass, const std::string &stiffness)
   {
@@ -120,7 +120,7 @@ TEST_F(NodeTable, MatricesThatCannotBeAFrameAreToldWithTheirRow)
   expect(with(unit, "[[1]]"), {"1 x 1", "2 x 2"});
 }
 
-TEST_F(NodeTable, UnitsThatCannotBeAreWarnedOf)
+TEST_F(NodeTable, UnitsThatCannotBeGiveAWarning)
 {
   const std::string nodes   = "nodes = \"nodes.csv\"\n";
   const auto        warning = [&](const std::string &table_text, const std::string &of)
@@ -189,7 +189,7 @@ TEST_F(NodeTable, SpeedOfWavesAndTheLowestFrequencyTellMassesInTonnes)
   EXPECT_TRUE(apps::suspect_units(consistent, nodes).empty());
 }
 
-TEST_F(NodeTable, MassAndStiffnessExchangedAreToldByFrequenciesNoFrameHas)
+TEST_F(NodeTable, MassAndStiffnessExchangedAreReportedByFrequenciesNoFrameHas)
 {
   const auto warnings = read(table, "nodes = \"nodes.csv\"\n",
                              "stiffness = [[100, 0, 0, 0], [0, 5, 0, 0], [0, 0, 100, 0], [0, 0, 0, 5]]\n"

@@ -75,7 +75,7 @@ TEST(Press, FrameAThousandTimesStifferChangesTheReboundPeak)
   EXPECT_GT(std::abs(F_stiff - F_soft), 0.02 * std::abs(F_soft));
 }
 
-TEST(Press, FrameThatNothingHoldsUpIsNamedAndLeavesNothing)
+TEST(Press, FrameThatIsUnsupportedIsNamedAndLeavesNothing)
 {
   const Folder folder("press_loose");
   expect_answer(gestell("run " + scene("press.toml") + folder.option() + coarse +

@@ -118,7 +118,7 @@ TEST(Program, LengthsOnTheCommandLineTakeUnitsAndSayWhatIsWrong)
 }
 
 // A limit of the process counts as the memory that there is.
-TEST(Program, MoreMemoryThanThereIsIsToldWithWhatHelps)
+TEST(Program, MoreMemoryThanThereIsIsReportedWithWhatHelps)
 {
   const Folder folder("memory"); // 60 GB of history and pictures
   const Answer answer =
@@ -136,7 +136,7 @@ std::string member(const std::string &json, const std::string &of, const std::st
   return object == std::string::npos ? "no " + of : json.substr(begin, json.find_first_of("\n", begin) - begin);
 }
 
-TEST(Program, SummaryTellsWhatWasAskedAndWhatWasRun)
+TEST(Program, SummaryReportsWhatWasAskedAndWhatWasRun)
 {
   const Folder folder("asked");
   ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + folder.option() +
@@ -189,7 +189,7 @@ TEST(Program, InterruptedRunSavesWhatItHas)
   EXPECT_NE(summary.find("\"steps\""), std::string::npos);
 }
 
-TEST(Program, StartOfABodyThatNothingHoldsNamesIt)
+TEST(Program, StartOfABodyThatIsUnconstrainedNamesIt)
 {
   const Folder      folder("falling");
   const std::string falling = folder.file(

@@ -30,7 +30,7 @@ TEST(StudyCommand, LeavesItsRowsAndGoesOnAfterAnInterruption)
   expect_answer(cut, 130, {"runs made", " remaining"});
   const std::string before = read(folder.results() / "runs.csv");
   EXPECT_LT(lines_of(folder.results() / "runs.csv"), 41);
-  expect_answer(gestell(study), 2, {"of 40 rows of this study; go on with --resume"});
+  expect_answer(gestell(study), 2, {"of 40 rows of this study; continue with --resume"});
   expect_answer(gestell(study + "--resume --set design.runs=41"), 2, {"design.runs was 40, is 41"});
   std::ofstream(folder.results() / "runs.csv", std::ios::app) << "40,done,7"; // as a crash leaves it
   expect_answer(gestell(study + "--resume --jobs 2"), 0, {"report: "});
@@ -97,7 +97,7 @@ TEST(StudyCommand, DoesNotMergeSharesThatAreBeingMade)
   expect_answer(both, 0, {"is running a share of a study there", "6 runs made"});
   expect_answer(gestell(study), 0, {"6 runs made"});
   EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 12);
-  expect_answer(gestell(study + "--share 2/2"), 2, {"holds 12 rows of this study already"});
+  expect_answer(gestell(study + "--share 2/2"), 2, {"holds 12 rows of this study; complete them"});
 }
 
 /// A search on runs of the press, and draws about what it finds.
@@ -122,8 +122,9 @@ TEST(StudyCommand, SearchesAndDrawsSideBySideAsOneAfterAnother)
   const Folder slopes("study_search_slopes");
   const Answer warned = gestell("study " + slopes.file("s.toml", search) + slopes.option() +
                                 "--set optimise.method=gradient --set optimise.starts=1");
-  expect_answer(warned, 0, {"gestell: warning: the search on runs took derivatives from differences of runs"});
-  EXPECT_EQ(count(read(slopes.results() / "findings.txt"), "warning: the search on runs took derivatives"), 1);
+  expect_answer(warned, 0, {"gestell: warning: the search with runs used difference quotients"});
+  EXPECT_EQ(count(read(slopes.results() / "findings.txt"), "warning: the search with runs used difference quotients"),
+            1);
 }
 
 TEST(StudyCommand, IsInterruptedInSearchesAndKeepsTheirRows)
@@ -135,7 +136,7 @@ TEST(StudyCommand, IsInterruptedInSearchesAndKeepsTheirRows)
     const Answer      cut  = gestell("study " + folder.file("s.toml", search) + folder.option() + "--jobs " + jobs +
                                      " --set optimise.robust.draws=5000 2>&1 & p=$!; while [ $(cat " + rows +
                                      " 2>/dev/null | wc -l) -lt 5 ]; do sleep 0.01; done; kill -INT $p; wait $p");
-    expect_answer(cut, 130, {"interrupted: what was not found yet is missing"});
+    expect_answer(cut, 130, {"interrupted: results are incomplete"});
     EXPECT_GE(count(read(folder.results() / "optimum_runs.csv"), ",done,"), 4);
   }
 }
@@ -156,7 +157,7 @@ TEST(StudyCommand, LinksTheRunsThatItKeeps)
   const Folder folder("study_kept");
   expect_answer(gestell("study " + folder.file("s.toml", text) + folder.option() +
                         "--set design.runs=4 --set run.end=\"5 ms\" --set keep=true --set optimise.goals.F.scale=1"),
-                0, {"by a run"});
+                0, {", run "});
   const std::string page = read(folder.results() / "report.html");
   for (const char *run : {"run_1", "run_4", "run_5"}) // the last verifies the optimum
   {
@@ -181,7 +182,7 @@ TEST(StudyCommand, FindsTheOptimumAndWritesItAsAScene)
 {
   const Folder folder("study_optimum");
   expect_answer(gestell("study '" GESTELL_SOURCE_DIR "/apps/studies/press_24.toml'" + folder.option()), 0,
-                {"24 runs made", "optimum on the surface", "play = -1", "by a run -501.09 kN"});
+                {"24 runs made", "optimum on the surface", "play = -1", "run -501.09 kN"});
   for (const char *file : {"runs.csv", "surface.csv", "effects.csv", "report.html", "optimum.toml", "optimum_runs.csv"})
     EXPECT_TRUE(std::filesystem::exists(folder.results() / file)) << file;
   const auto again = (folder / "again").string();

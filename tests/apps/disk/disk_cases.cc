@@ -92,7 +92,7 @@ struct Trial
   Answer again() const
   {
     const Answer answer = call();
-    return answer.exit_code == 2 && answer.says("go on with --resume") ? call("--resume") : answer;
+    return answer.exit_code == 2 && answer.says("continue with --resume") ? call("--resume") : answer;
   }
   Contents undisturbed(const std::string &more = "") const
   {

@@ -7,7 +7,7 @@ namespace gestell::tests
 namespace
 {
 
-TEST(FailedWrite, IsToldAndLeavesWholeFilesInEveryCommand)
+TEST(FailedWrite, IsReportedAndLeavesWholeFilesInEveryCommand)
 {
   const DiskCases cases;
   EXPECT_GT(fail_writes(cases, 2), 0);
@@ -41,7 +41,7 @@ TEST(FailedWrite, LosesNoHistory)
 }
 
 // Interrupted, it says whether the run can go on, too.
-TEST(FailedWrite, OfAnInterruptedRunTellsWhetherItCanGoOn)
+TEST(FailedWrite, OfAnInterruptedRunReportsWhetherItCanGoOn)
 {
   const DiskCases cases;
   const Folder    folder("full_disk");

@@ -96,7 +96,7 @@ TEST(Inputs, AreNotReplacedByResults)
   ASSERT_EQ(gestell("frf " + press_scene + "--from frame.crown.uz --to F_P --points 5" + folder.option()).exit_code, 0);
   expect_answer(gestell("frf " + press_scene + "--from frame.crown.uz --to F_P --points 5 --measured '" +
                         (folder.results() / "frf.csv").string() + "'" + folder.option()),
-                2, {"frf.csv is read by this command"});
+                2, {"frf.csv is an input of this command"});
 }
 
 // A scene that a command left among its results runs from there, and stays.

@@ -9,7 +9,7 @@ namespace gestell::tests
 namespace
 {
 
-TEST(ManyFailedWrites, AreAllToldAndLeaveWholeFiles)
+TEST(ManyFailedWrites, AreAllReportedAndLeaveWholeFiles)
 {
   const DiskCases cases;
   const int       n = fail_writes(cases, 1 + 200 / int(cases.all().size()));

@@ -92,7 +92,7 @@ TEST(FmuExport, RefusesOddInputWithTheWayOut)
     expect_answer(gestell("export " + arguments + " --fmu '" + (folder / "x.fmu").string() + "'"), 2, words);
     EXPECT_FALSE(std::filesystem::exists(folder / "x.fmu"));
   };
-  refused(scene("press_minimal.toml") + " --inputs slid", {"--inputs slid", "there is no place 'slid'", "'slide'"});
+  refused(scene("press_minimal.toml") + " --inputs slid", {"--inputs slid", "there is no marker 'slid'", "'slide'"});
   refused(scene("press_minimal.toml") + " --inputs frame.crwn.uz", {"frame.crwn", "crown"});
   refused(scene("press_minimal.toml") + " --inputs F_P=slide", {"scene.toml: 'F_P' is an input and a signal"});
   refused(scene("press_minimal.toml") + " --set start.rule='periodic'",

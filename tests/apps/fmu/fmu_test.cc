@@ -280,7 +280,7 @@ TEST(Fmu, EndsWhereASwitchEndsTheRun)
   other.forget(copied);
 }
 
-TEST(Fmu, EndsAlikeWhereEventsAreGoneOver)
+TEST(Fmu, EndsAlikeWhereEventsAreSkipped)
 {
   const Folder folder("fmu_end_over");
   std::string  text = oscillator("one", 2., 800., 0.);

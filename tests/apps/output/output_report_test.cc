@@ -211,7 +211,7 @@ TEST(Report, NamesPicturesThatItsViewHas)
   EXPECT_EQ(n, 2u + result.coupled_modes.size() + 5u + 1u); // the start and the peak, modes, an instant of stress
 }
 
-TEST(StressOutput, StandsInTheSummaryOnlyWhereItWasAskedFor)
+TEST(StressOutput, IsInTheSummaryOnlyWhereItWasAskedFor)
 {
   const Result result = with_stress(example_result());
   const auto   json   = summary_json(result);

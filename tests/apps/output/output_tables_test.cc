@@ -78,7 +78,7 @@ TEST(NumberText, ShowsSIUnitsWithThePrefixThatReadsWell)
   EXPECT_EQ(short_text(1.5e-9), "1.5e-09");
 }
 
-TEST(Json, EscapesTextAndHasNullForWhatIsNoNumber)
+TEST(Json, EscapesTextAndHasNullForWhatIsNotANumber)
 {
   const double infinite = std::numeric_limits<double>::infinity();
   EXPECT_EQ(json_text({{"a\"b", "line\n\\tab\t\x01 µ \xff"}, {"x", {1. / 3., std::nan(""), infinite}}}),
@@ -204,7 +204,7 @@ TEST_F(ResultFolder, IsTestedWithoutLeavingATrace)
 }
 
 /// Wherever the disk becomes full, files are whole or missing, and the summary tells which, if there is room for it.
-TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndTellsWhatIsMissing)
+TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndReportsWhatIsMissing)
 {
   const fs::path all = folder / "all", cut = folder / "cut";
   prepare_folder(all);
@@ -292,7 +292,7 @@ TEST(ChangeText, IsThatOfTheMagnitude)
   EXPECT_EQ(change_text(100., 0.), "100 % smaller");
 }
 
-TEST(ChangeText, IsNoPercentageWhereNoneTells)
+TEST(ChangeText, IsNotAPercentageWhereNoneIsObserved)
 {
   EXPECT_EQ(change_text(-100., 90.), "opposite sign");
   EXPECT_EQ(change_text(3., 3. * (1. + 1e-12)), "the same");

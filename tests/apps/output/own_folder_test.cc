@@ -116,7 +116,7 @@ TEST_F(OwnFiles, OfAListThatIsNoneOfOursAreNone)
 }
 
 // A process was killed before it wrote the first line.
-TEST_F(OwnFiles, OfAListWithoutALineBeginItAnew)
+TEST_F(OwnFiles, OfAListWithoutALineBeginItAgain)
 {
   put(".gestell-files", "");
   OwnFolder(folder / "").write("history.csv", "ours");

@@ -108,7 +108,7 @@ class Failures(unittest.TestCase):
 
         for derivative in (None, lambda t, u, v: (-4000., 0.)):
             failed = self.fails(oscillator(force=breaks, derivative=derivative))
-            self.assertIn('the law of "spring"', str(failed))
+            self.assertIn('the force law of "spring"', str(failed))
             self.assertIn("laws_test.py", str(failed))
             self.assertIn("ZeroDivisionError: spring broke", str(failed))
             self.assertIsInstance(failed.__cause__, ZeroDivisionError)
@@ -117,7 +117,7 @@ class Failures(unittest.TestCase):
 
     def test_that_are_no_number_end_the_run_with_its_results(self):
         failed = self.fails(oscillator(force=lambda t, u, v: -4000. * u if t < 0.1 else math.nan))
-        self.assertIn('the law of "spring" has no finite value', str(failed))
+        self.assertIn('the force law of "spring" has no finite value', str(failed))
         self.assertGreater(failed.result.t[-1], 0.09)
 
     def test_of_what_is_returned_are_explained(self):

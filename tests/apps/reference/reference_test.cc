@@ -254,7 +254,7 @@ TEST(Elements, RefuseToReadWhatIsNotDeclared)
   EXPECT_THROW(table.has("length"), std::logic_error);
 }
 
-TEST(Declarations, TellWhatEveryKeyMeansOnce)
+TEST(Declarations, ReportWhatEveryKeyMeansOnce)
 {
   for (const DeclaredTable &table : declared_tables())
   {

@@ -127,7 +127,7 @@ TEST(Stop, RefusesWhatMakesNoSense)
   EXPECT_EQ(complaint(scene), "");
   expect_complaint(with(scene, "impact_speed = \"3 m/s\"", ""), "needs 'restitution' and 'impact_speed' together");
   expect_complaint(with(scene, "impact_speed = \"3 m/s\"", "impact_speed = \"3 m/s\"\ndissipation = 0.1"),
-                   "element.bumper.restitution: says the same as 'dissipation'");
+                   "element.bumper.restitution: means the same as 'dissipation'");
   expect_complaint(with(scene, "restitution = 0.6", "restitution = 1.2"), "restitution = 1.2, but it must be above 0");
   expect_complaint(with(scene, "side = \"below\"", "side = \"left\""), "there is no 'left'");
   expect_complaint(with(scene, "stiffness = \"2 N/um\"", "stiffness = 0"), "needs a stiffness above zero");
@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, TableForces,
                                            Settings{"run.method=exact", "run.force=average", "run.step=0.1 ms"},
                                            Settings{"run.method=newmark", "run.step=0.1 ms"}));
 
-TEST(TableForce, IsTakenAtTheBeginOfTheRunByASteadyStart)
+TEST(TableForce, IsTakenAtTheBeginningOfTheRunByASteadyInitialState)
 {
   // 5 N at 0.5 s stretch the spring by 25 mm; there the joint sticks and carries nothing yet, 1 N at the end.
   const SceneRun motion =

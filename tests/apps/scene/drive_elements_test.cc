@@ -224,7 +224,7 @@ TEST(Inputs, StayAtTheInitialLevelOfARun)
   const std::string scene = rotor(2., "4 s");
   expect_complaint(scene + push("{ input = 'M' }") + stop, "hold");
   expect_complaint(scene + push("{ input = 'a<b' }"), "an input needs a name");
-  expect_complaint(scene + push("{ input = 'M', period = '1 s' }"), "leave out 'period' or 'input'");
+  expect_complaint(scene + push("{ input = 'M', period = '1 s' }"), "remove 'period' or 'input'");
   expect_complaint(scene + push("{ input = 'M' }") + "waits = true\n", "has no effect on an input");
 }
 

@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
         Law{"plain*u + 1 N", [](double, double u, double) { return 3. * u + 1.; }},
         Law{"12 N", [](double, double, double) { return 12.; }}));
 
-TEST(FormulaText, TellsWhatIsWrongAndAtWhichCharacter)
+TEST(FormulaText, ReportsWhatIsWrongAndAtWhichCharacter)
 {
   struct Mistake
   {
@@ -130,7 +130,7 @@ TEST(FormulaText, TellsWhatIsWrongAndAtWhichCharacter)
     EXPECT_NE(complaint_about(text).find(words), std::string::npos) << text << "\nsaid: " << complaint_about(text);
 }
 
-TEST(FormulaText, ToldOfAValueIsOneOfTheVariablesOnlyWhereThereAreAny)
+TEST(FormulaText, InferredFromAValueIsOneOfTheVariablesOnlyWhereThereAreAny)
 {
   const auto nothing = [](const std::string &) { return std::optional<Quantity>(); };
   EXPECT_THROW(parse_quantity("2*u", nothing), std::invalid_argument);
@@ -275,7 +275,7 @@ TEST(FormulaForceElement, ThatFallsOverTheRateIsDryFrictionThatChatters)
   EXPECT_NEAR(motion.signal("x").final, 0.05, 1e-4);
 }
 
-TEST(FormulaForceElement, ThatIsNoNumberStopsTheRun)
+TEST(FormulaForceElement, ThatIsNotANumberStopsTheRun)
 {
   for (const std::string formula : {"1 N*sqrt(0.1 - u/m)", "1 N*sqrt(0.1 - abs(u/m))"}) // u comes to 0.1 m at 1 m/s
   {

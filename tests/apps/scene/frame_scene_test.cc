@@ -77,7 +77,7 @@ TEST(SceneFrame, DampingByModeAndByFrequencyIsKeptAsItIsGiven)
   EXPECT_EQ(table, (std::vector<std::pair<double, double>>{{20., 0.01}, {1000., 0.03}}));
 }
 
-TEST(SceneFrame, AMaterialNoSolidHasIsTakenWithItsUnitAndWarnedOf)
+TEST(SceneFrame, AMaterialNoSolidHasIsTakenWithItsUnitAndGivesAWarning)
 {
   const auto scene = scene_of(cad_scene("\"steel\"", "{ E = \"0.5 MPa\", nu = 0.45, rho = 1100 }"));
   ASSERT_EQ(scene.warnings.size(), 1u);
@@ -103,7 +103,7 @@ TEST(Scene, OfNothingIsRefusedWhenItIsBuilt)
                         "has no moving part; declare a [frame]");
 }
 
-TEST(Scene, WithGravityInAnotherUnitIsWarnedOf)
+TEST(Scene, WithGravityInAnotherUnitGivesAWarning)
 {
   const auto scene = scene_of(small_scene(), {"gravity=[0, 0, -9810]"});
   ASSERT_EQ(scene.warnings.size(), 1u);
@@ -162,7 +162,7 @@ TEST(SceneFrame, MistakesAreReportedWithPlaceAndRemedy)
       {"ratio = 0.02", "ratio = 2", "scene.toml:5: frame.damping.ratio", "0.01"},
       {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }]", "damping.rayleigh", "needs two"},
       {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }, { frequency = 40, ratio = 0.09 }]",
-       "damping.rayleigh", "feed"}};
+       "damping.rayleigh", "amplify"}};
   for (const auto &[piece, replacement, place, words] : cases)
   {
     const auto message = complaint(cad_scene(piece, replacement));

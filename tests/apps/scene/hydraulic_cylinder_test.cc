@@ -128,7 +128,7 @@ TEST(HydraulicCylinder, AValveDividesThePressureByItsFlow)
 }
 
 // An arm on a hinge, held by a cylinder between two turning bodies: joints and states without mass together.
-TEST(HydraulicCylinder, HoldsAJointedArmFromAStaticStartOn)
+TEST(HydraulicCylinder, HoldsAJointedArmFromAStaticInitialStateOn)
 {
   const std::string arm =
       "gravity = [0, 0, -10]\n" + planar_body("arm", "300 kg", "90 kg m^2", "['1 m', 0, 0]") +
@@ -171,7 +171,7 @@ double warned_at(const SceneRun &motion, const std::string &what)
 }
 
 // x = v/w sin w t; chamber A of 0.2 m is without pressure at x = 0.2 m (exp(p_0/K) - 1).
-TEST(HydraulicCylinder, CavitationIsWarnedOfWithItsTime)
+TEST(HydraulicCylinder, CavitationGivesAWarningWithItsTime)
 {
   const std::string start = "pressure_a = \"10 bar\"\npressure_b = \"200 bar\"\nflow = 0\n[start]\nrule = \"given\"\n"
                             "v = { slide = \"80 mm/s\" }\n[element.weight]\ntype = \"force\"\nfrom = \"slide\"\n"
@@ -185,7 +185,7 @@ TEST(HydraulicCylinder, CavitationIsWarnedOfWithItsTime)
 }
 
 // 0.12 m/s from the middle: chamber B ends at 0.41667 m, and the last hundredth of both columns is 6.17 mm.
-TEST(HydraulicCylinder, TheEndOfItsStrokeIsWarnedOfWithItsTime)
+TEST(HydraulicCylinder, TheEndOfItsStrokeGivesAWarningWithItsTime)
 {
   const std::string flow   = "pressure_a = \"60 bar\"\npressure_b = \"100 bar\"\nflow = \"240 cm^3/s\"\n[start]\n"
                              "v = { slide = \"120 mm/s\" }\n";
@@ -204,7 +204,7 @@ TEST(GasForce, AWarningNamesTheEndOfItsStroke)
                                                   "delivery_pressure = \"2 bar\"\n[start]\nrule = \"given\"\n"
                                                   "q = { slide = 0.1 }\nv = { slide = -1 }\n",
                           {"run.step=0.1 ms", "output.picture_step=0"});
-  EXPECT_NEAR(warned_at(motion, "gas: the piston comes to the end of its stroke"), 0.105, 1e-6); // 200 N on 1e6 kg
+  EXPECT_NEAR(warned_at(motion, "gas: the piston reaches the end of its stroke"), 0.105, 1e-6); // 200 N on 1e6 kg
 }
 
 TEST(HydraulicCylinder, BadInputAndMethodsAreRefused)
@@ -215,7 +215,8 @@ TEST(HydraulicCylinder, BadInputAndMethodsAreRefused)
                                                 "supply_pressure = \"9 bar\"\n"),
                    "opening of the valve = 2");
   expect_complaint(slider(1., "1 s") + cylinder("flow = 0\nrated_flow = \"1 cm^3/s\"\n"), "unknown key 'rated_flow'");
-  expect_refusal([&] { run(slider(1., "1 s") + cylinder("flow = 0\n"), {"run.method=newmark"}); }, "use bdf");
+  expect_refusal([&] { run(slider(1., "1 s") + cylinder("flow = 0\n"), {"run.method=newmark"}); },
+                 "use the method bdf");
 }
 
 } // namespace

@@ -42,7 +42,7 @@ TEST(JointRules, APrescribedLengthBeginsWithTheRun)
 }
 
 // A cross slide carries both motions into its joints: the ends of a rod of 5 m stay on a quarter circle.
-TEST(JointRules, ACrossSlideCarriesBothItsMotions)
+TEST(JointRules, ACrossSlideCarriesBothItsDisplacements)
 {
   const std::string cross = slider_body("x", "1 kg", "[1, 0, 0]", {{"position", "['3 m', 0, 0]"}}) +
                             slider_body("z", "1 kg", "[0, 0, 1]", {{"guide", "x"}, {"position", "['3 m', 0, '4 m']"}}) +
@@ -122,7 +122,7 @@ TEST(JointRules, AFailureNearADeadPositionIsNamed)
 }
 
 // kappa = J W^2/(c + W^2 m) = 0.5*2500/(10 000 + 2500) = 0.1 at 50 rad/s, 0.0012 at 5 rad/s.
-TEST(Rotor, OnACarrierThatTiltsIsWarnedOfItsGyroscopicMoments)
+TEST(Rotor, OnACarrierThatTiltsGivesAWarningOfItsGyroscopicMoments)
 {
   const auto warnings = [](const std::string &speed)
   {
@@ -167,7 +167,7 @@ TEST(JointRules, WhatACarrierWouldCarryRoundIsRefused)
   EXPECT_EQ(complaint(slider + "axis = [0, 1, 0]\n"), "");
 }
 
-TEST(JointRules, AMassFarFromItsInterfaceIsWarnedOf)
+TEST(JointRules, AMassFarFromItsInterfaceGivesAWarning)
 {
   const auto warnings = [](const std::string &rows, const std::string &position)
   {

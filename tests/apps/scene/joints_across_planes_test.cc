@@ -104,7 +104,7 @@ TEST(JointsAcrossPlanes, HoldInEveryDirectionOrAreRefused)
   EXPECT_GT(held, 60);
 }
 
-TEST(JointsAcrossPlanes, AGapThatNoBodyCanCloseIsToldWithItsSize)
+TEST(JointsAcrossPlanes, AGapThatNoBodyCanCloseIsReportedWithItsSize)
 {
   const Kind &planar = kinds[6], &rotor = kinds[1], &ground = kinds[0];
   for (const auto &[a, b] :
@@ -112,7 +112,7 @@ TEST(JointsAcrossPlanes, AGapThatNoBodyCanCloseIsToldWithItsSize)
     for (const std::string type : {"revolute", "spherical", "rigid"})
     {
       const std::string said = test::complaint(pair_of(a, b, type, at_a[1] + 0.02));
-      EXPECT_NE(said.find("joint.j: stays open by 0.02 m along [0, 1, 0]"), std::string::npos) << type << ": " << said;
+      EXPECT_NE(said.find("joint.j: has a gap of 0.02 m along [0, 1, 0]"), std::string::npos) << type << ": " << said;
       EXPECT_NE(said.find("give only 'at'"), std::string::npos) << said;
     }
 }
@@ -130,7 +130,7 @@ TEST(JointsAcrossPlanes, AScrewAskewToItsShaftIsRefused)
                        "[joint.j]\ntype = \"screw\"\nfrom = \"shaft\"\nto = \"nut\"\nat_from = [0, 0, 0]\n"
                        "at_to = [0.3, 0, 0]\naxis = [0.6, 0.8, 0]\npitch = \"10 mm\"\n" +
                        short_run + "signals = { }\n",
-                   "lies askew to the axis of 'shaft'");
+                   "is not parallel to the axis of 'shaft'");
 }
 
 // The pin of a crank about y leaves the plane z = 0.2 of the body at once: held there, the crank stands still.
@@ -144,7 +144,7 @@ TEST(JointsAcrossPlanes, ABodyHoldsInItsPlaneWhatWouldLeaveIt)
 }
 
 // Described where the pin does not move across, the joint holds it there all the same: a crank on a slide locks.
-TEST(JointsAcrossPlanes, ADirectionThatIsIdleAsDescribedIsHeld)
+TEST(JointsAcrossPlanes, ADirectionThatIsIdleInTheReferenceConfigurationIsHeld)
 {
   const std::string crank = rotor_body("crank", "0.1", "[0, 1, 0]") + slider_body("slide", "1", "[1, 0, 0]") +
                             revolute("pin", "crank", "slide", "[0, 0, 0.1]");

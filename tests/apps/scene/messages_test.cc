@@ -45,7 +45,7 @@ TEST(Messages, PlainFactorsOfASumFit)
 // Factors of one motion count together, under each of its names and through other measures.
 TEST(Messages, ASumThatIsZeroWhateverMovesIsRefused)
 {
-  const std::string zero = "measure.s.terms: cancel each other: the sum is zero whatever moves";
+  const std::string zero = "measure.s.terms: cancel each other: the sum is always zero";
   expect_complaint(sum("[{ of = \"a\" }, { of = \"a\", factor = -1 }]"), zero);
   expect_complaint(sum("[{ of = \"a\", factor = 0 }]"), zero);
   expect_complaint(sum("[{ of = \"w\", factor = 0.3 }, { of = \"w.angle\", factor = -0.1 }, { of = \"w\", "
@@ -82,7 +82,7 @@ const std::string pendulum = planar_body("p", "1", "1", "[1, 0, 0]", "[0, 0, 1]"
 TEST(Messages, APlanarHingeMayGiveTheAxisItHas)
 {
   EXPECT_EQ(complaint(pendulum + "axis = [0, 0, -2]\n"), "");
-  expect_complaint(pendulum + "axis = [0, 1, 0]\n", "joint.hinge.axis: 'p' turns about another axis only");
+  expect_complaint(pendulum + "axis = [0, 1, 0]\n", "joint.hinge.axis: 'p' rotates about its own axis only");
 }
 
 // The joint stands in line 10 of the scene.
@@ -92,10 +92,10 @@ TEST(Messages, PointToTheJointThatStaysOpen)
 }
 
 // What is typed without quotes is no TOML; the line is shown as it must be.
-TEST(Messages, SaysWhatALineThatIsNoTomlShouldBe)
+TEST(Messages, SaysWhatALineThatIsNotTomlShouldBe)
 {
   const auto expect = [](const std::string &line, const std::string &hint)
-  { expect_complaint("name = \"a\"\n" + line + "\n", "scene.toml:2: is not TOML here: " + hint); };
+  { expect_complaint("name = \"a\"\n" + line + "\n", "scene.toml:2: is not valid TOML here: " + hint); };
   expect("step = 5 us", "put a value with a unit, and an expression, in quotes: \"5 us\"");
   expect("a = [0, 0, -9.81 m/s^2]", "put a value with a unit, and an expression, in quotes: \"-9.81 m/s^2\"");
   expect("k = 20°", "put a value with a unit, and an expression, in quotes: \"20°\"");
@@ -118,7 +118,7 @@ TEST(Messages, SaysWhatALineThatIsNoTomlShouldBe)
 TEST(Messages, NamesWhatIsDefinedTwice)
 {
   const auto expect = [](const std::string &text, int line, const std::string &hint)
-  { expect_complaint(text, "scene.toml:" + std::to_string(line) + ": is not TOML here: " + hint); };
+  { expect_complaint(text, "scene.toml:" + std::to_string(line) + ": is not valid TOML here: " + hint); };
   expect("[element.\"crank pin\"]\nk = 1\n[element.\"crank pin\"]\nk = 2\n", 3,
          "[element.\"crank pin\"] is defined twice in the file");
   expect("[element.'rod']\nk = 1\n[element.'rod']\n", 3, "[element.'rod'] is defined twice in the file");
@@ -131,7 +131,7 @@ TEST(Messages, NamesWhatIsDefinedTwice)
 
 TEST(Messages, SayHowALargeNumberIsWritten)
 {
-  expect_complaint("x = 1e400\n", "scene.toml:1: a number is beyond 1.8e308");
+  expect_complaint("x = 1e400\n", "scene.toml:1: a number exceeds 1.8e308");
   expect_complaint("x = 99999999999999999999\n", "scene.toml:1: a number has too many digits");
 }
 
@@ -157,7 +157,7 @@ TEST(Messages, AnUnknownSignalIsAnsweredInALine)
   EXPECT_NE(part.find("did you mean one of 'hinge."), std::string::npos) << part;
 }
 
-TEST(Messages, AnElementOnABodyIsToldItsKey)
+TEST(Messages, AnElementOnABodyNamesItsKey)
 {
   expect_complaint(rotor(1., "1 s") + "[element.f]\ntype = \"force\"\non = \"shaft\"\nconstant = \"1 N m\"\n",
                    "on: 'shaft' is not a measure; a body or an interface is named by `from`");
@@ -183,8 +183,7 @@ TEST(Messages, ABodyOnWhichNothingActsIsNamedWithItsPlace)
   EXPECT_EQ(warnings(pendulum), std::vector<std::string>{});
   const auto said = warnings(pendulum + stray);
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_NE(said[0].find("scene.toml:15: body.stray: nothing but its weight acts on the body \"stray\""),
-            std::string::npos)
+  EXPECT_NE(said[0].find("scene.toml:15: body.stray: only its weight acts on the body \"stray\""), std::string::npos)
       << said[0];
   EXPECT_EQ(warnings(pendulum + stray +
                      "[element.f]\ntype = \"force\"\nfrom = \"stray\"\ndirection = [1, 0, 0]\nconstant = 1\n"),
@@ -201,7 +200,7 @@ TEST(Messages, AJointFarFromBothBodiesIsNamedWithTheDistance)
   EXPECT_EQ(warnings(bar("1.2")), std::vector<std::string>{});
   const auto said = warnings(bar("12")); // cm?
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_NE(said[0].find("the joint \"elbow\" lies 10.6 m from \"p\" and \"bar\""), std::string::npos) << said[0];
+  EXPECT_NE(said[0].find("the joint \"elbow\" is 10.6 m from \"p\" and \"bar\""), std::string::npos) << said[0];
 }
 
 // What a file can be made of without an end, and what a parser with a stack would end by a signal for.

@@ -108,8 +108,8 @@ TEST(PartsScene, RefusesWhatDoesNotFit)
       {middle + "[frame.joint.outer]\ntype = 'contact'\nbetween = ['arm.end', 'tip.rear']\n", "needs 'normal'"},
       {middle + "[frame.joint.outer]\ntype = 'bolts'\nbetween = ['arm.end', 'tip.rear']\n", "needs a 'stiffness'"},
       {middle + "[frame.joint.outer]\ntype = 'tie rod'\nbetween = ['arm.end', 'tip.rear']\n", "diameter"},
-      {middle + outer + "[frame.part.more]\nsame_as = 'arms'\n", "there is no part 'arms' with geometry of its own"},
-      {middle + outer + "[frame.part.more]\nsame_as = 'arm'\nmaterial = 'steel'\n", "is that of 'arm' already"},
+      {middle + outer + "[frame.part.more]\nsame_as = 'arms'\n", "there is no part 'arms' with its own geometry"},
+      {middle + outer + "[frame.part.more]\nsame_as = 'arm'\nmaterial = 'steel'\n", "is that of 'arm';"},
       {middle + outer + "[output.stress]\n", "stresses of a frame of parts are not available"},
       {middle + outer + "[reduction]\nmethod = 'none'\n", "parts are joined after their reduction"},
       {middle + outer + "[reduction]\ninside = 'free-interface'\n", "does not retain the joined interfaces"}};

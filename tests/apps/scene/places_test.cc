@@ -75,7 +75,7 @@ TEST(Places, AThrustTurnsWithItsBody)
 }
 
 // A spring between places acts as one on the measure of the two, less what that is as described.
-TEST(Places, ASpringBetweenPlacesIsZeroAsDescribed)
+TEST(Places, ASpringBetweenPlacesIsZeroInTheReferenceConfiguration)
 {
   const std::string spring = "type = \"spring-damper\"\nstiffness = 50\ndamping = 2\n";
   const auto        places =
@@ -231,7 +231,7 @@ TEST(Places, WhatCannotActIsRefused)
                    "measure.m.to: 'bob' is a point");
   const auto load = [](const std::string &keys) { return plate + "[element.e]\n" + keys; };
   expect_complaint(load("type = \"force\"\nfrom = \"plate\"\nat_from = [0, 0, 0]\nabout = [0, 1, 0]\nconstant = 1\n"),
-                   "at_from: is of no meaning");
+                   "at_from: has no effect");
   expect_complaint(load("type = \"force\"\nfrom = \"tip\"\nconstant = 1\n"), "give 'direction'");
   expect_complaint(load("type = \"force\"\nfrom = \"top\"\ndirection = [0, 0, 1]\nconstant = 1\n"),
                    "there is no body 'top'");
@@ -247,7 +247,7 @@ TEST(Places, WhatCannotActIsRefused)
                         "\"tip\"\ndirection = [0, 0, 1]\n"),
                    "is a length");
   const std::string motor = "[element.e]\ntype = \"speed drive\"\nspeed = 1\nproportional_gain = 1\n";
-  expect_complaint(discs + motor + "on = \"twist\"\nto = \"two\"\n", "element.e.to: is of no meaning");
+  expect_complaint(discs + motor + "on = \"twist\"\nto = \"two\"\n", "element.e.to: has no effect");
   expect_complaint(discs + point + motor + "on = \"one\"\nto = \"bob\"\n", "'bob' is a point");
   expect_complaint(point + "[element.e]\ntype = \"asynchronous motor\"\non = \"bob\"\n", "'bob' is no rotor");
   expect_complaint(plate + point +

@@ -116,8 +116,8 @@ TEST(Quantity, ParametersComeBeforeUnitsWhereAnOperandIsExpected)
 
 TEST(Quantity, WhatReadsInTwoWaysIsRefused)
 {
-  expect_words(quantity_complaint("10 N/m s"), "two ways");
-  expect_words(quantity_complaint("1/2 mm"), "two ways");
+  expect_words(quantity_complaint("10 N/m s"), "is ambiguous");
+  expect_words(quantity_complaint("1/2 mm"), "is ambiguous");
   expect_words(quantity_complaint("3 g"), "a unit and a parameter");
   expect_words(quantity_complaint("30 km/h"), "a unit and a parameter");
 }
@@ -191,7 +191,7 @@ TEST(Quantity, AWrongDimensionSaysWhatIsNeededAndWhatCame)
   expect_words(quantity_complaint("3 mm", kind::angular_speed), "an angular speed");
 }
 
-TEST(Quantity, TurnsAndRadiansPerSecondAreToldApart)
+TEST(Quantity, TurnsAndRadiansPerSecondAreDistinguished)
 {
   expect_words(quantity_complaint("5 Hz", kind::angular_speed), "turns");
   expect_words(quantity_complaint("30 rad/s", kind::frequency), "radians");
@@ -254,7 +254,7 @@ TEST(Quantity, TurnsOfAShaftTimesARatioOfLengthsAreTurns)
   expect_words(quantity_complaint("(600 rpm)*pi*80 mm/(200 mm)", kind::angular_speed), "remove pi");
 }
 
-TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsTold)
+TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsReported)
 {
   EXPECT_NEAR(read("(1500 rpm)/(50 rad/s)").value, pi, 1e-14); // a ratio of speeds
   EXPECT_NEAR(read("(1500 rpm)/(500/min)").value, 3., 1e-14);

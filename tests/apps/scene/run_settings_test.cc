@@ -96,7 +96,7 @@ std::ostream &operator<<(std::ostream &out, const Refused &refused)
 
 using RefusedRun = ::testing::TestWithParam<Refused>;
 
-TEST_P(RefusedRun, IsToldWithPlaceAndWayOut)
+TEST_P(RefusedRun, IsReportedWithLocationAndRemedy)
 {
   const std::string text = complaint_of(GetParam().run);
   EXPECT_NE(text.find("scene.toml:"), std::string::npos) << text;
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"method = \"generalised-alpha\"\nrho_inf = 1.2\nstep = 1e-5", "run.rho_inf", "between 0 and 1"},
         Refused{"step = 1e-10", "run", "GB of history"}));
 
-TEST(RunSettings, AStepOfHalfTheLoadsPeriodIsToldByCheck)
+TEST(RunSettings, AStepOfHalfTheLoadsPeriodIsReportedByCheck)
 {
   const std::string shaker = "[element.shaker]\ntype = \"force\"\nfrom = \"slide\"\n"
                              "harmonics = [{ amplitude = \"1 kN\", frequency = \"400 Hz\" }]\n[start]";

@@ -19,7 +19,7 @@ std::string words_of(const std::string &scene)
 
 // A closed chain in the plane, in which one joint closes twice, one in space whose rigid bodies have six equations of
 // their own, and a crane: lift and pitch of the chassis, two swings of the load.  A joint that yields holds nothing.
-TEST(SceneSummary, CountsTheFreedomsOfAMechanism)
+TEST(SceneSummary, CountsTheDegreesOfFreedomOfAMechanism)
 {
   EXPECT_NE(words_of("double_four_bar.toml").find("mechanism on a fixed frame: 1 DOF"), std::string::npos);
   EXPECT_NE(words_of("spatial_crank_rocker.toml").find("mechanism on a fixed frame: 1 DOF"), std::string::npos);
@@ -31,9 +31,9 @@ TEST(SceneSummary, CountsTheFreedomsOfAMechanism)
 TEST(SceneSummary, NamesWhatThereIs)
 {
   const std::string press = words_of("press_minimal.toml");
-  for (const char *part : {"meets the machine at 'crown', 'table'", "'slide' (slider guided by frame.crown)",
-                           "nonlinear 'motor', 'rod', 'sheet'", "2 of the frame, 3 of the bodies\n",
-                           "bdf to t = 0.45 s in 45001 steps of 1e-05 s"})
+  for (const char *part :
+       {"interfaces 'crown', 'table'", "'slide' (slider guided by frame.crown)", "nonlinear 'motor', 'rod', 'sheet'",
+        "2 of the frame, 3 of bodies\n", "bdf to t = 0.45 s in 45001 steps of 1e-05 s"})
     EXPECT_NE(press.find(part), std::string::npos) << part << "\n" << press;
 }
 

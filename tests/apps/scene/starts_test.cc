@@ -48,7 +48,7 @@ TEST(Starts, WhatSticksToWhatAJointHoldsIsNamed)
 }
 
 // The rest of a static start need not be sought for it.
-TEST(Starts, JointsThatSayTheSameTwiceAreFoundBeforeAStaticStart)
+TEST(Starts, JointsThatSayTheSameTwiceAreFoundBeforeAStaticInitialState)
 {
   expect_objection("gravity = [0, 0, -9.81]\n" + planar_body("bar", "1", "0.1", "[0.5, 0, 0]") +
                        revolute("left", "ground", "bar", "[0, 0, 0]") +

@@ -84,7 +84,7 @@ TEST(StressScene, CostsNothingWhereItIsNotWanted)
   EXPECT_EQ(at.run.options.states.step, 0.) << "nothing is looked for";
 }
 
-TEST(StressScene, RefusesWhatCannotBeTold)
+TEST(StressScene, RefusesWhatCannotBeReported)
 {
   const auto says = [](const std::string &text, const std::string &part)
   {

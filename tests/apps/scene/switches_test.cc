@@ -234,7 +234,7 @@ TEST(Switches, OfTheTimeOfTheStartAreMeant)
 }
 
 // Set to 40 N within 0.2 s while it is off, from 0.3 s on; on at 0.4 s, half way up: 25 N, and at 0.5 s 40 N.
-TEST_P(Switches, GiveOrdersToWhatIsOff)
+TEST_P(Switches, GiveCommandsToWhatIsOff)
 {
   const auto motion = run(slider(2., "1 s") + "F = \"push.force\"\n" + push + "initially = \"off\"\n" +
                               switched("level", "t above 0.3 s", "push set", {{"to", "40 N"}, {"rate", "150 N/s"}}) +
@@ -265,7 +265,7 @@ TEST(Switches, EndARunInWhichASecondStartWouldMakeTheSpeedJump)
       stopped("[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 2\n" + feed +
               "[run]\nstep = \"1 ms\"\nend = \"1 s\"\n[output.signals]\nx = \"slide.displacement\"\n" +
               switched("go", "t above 0.1 s", "feed start") + switched("again", "t above 0.6 s", "feed start"));
-  for (const std::string words : {"at t = 0.6 s, switch \"again\" tells \"feed\"", "jump from 0.5 to 0"})
+  for (const std::string words : {"at t = 0.6 s, switch \"again\" commands \"feed\"", "jump from 0.5 to 0"})
     EXPECT_NE(motion.result.failure.find(words), std::string::npos) << motion.result.failure;
   EXPECT_NEAR(motion.signal("x").final, 0.5 * 0.5 - 0.5 * 0.25 * 0.5, 1e-6); // saved until then
 }
@@ -353,7 +353,7 @@ TEST(Switches, RefuseWhatCannotBe)
   refuses("push off", "needs repeat", {{"hysteresis", "1 s"}});
   refuses("push off", "switch.s.delay", {{"delay", "-1 s"}});
   refuses("push off", "there is no switch 'u'", {{"after", "u"}});
-  refuses("push off", "in a circle", {{"after", "s"}});
+  refuses("push off", "none would ever be armed", {{"after", "s"}});
   refuses("push off", "cannot be given together with 'above'", {{"below", "2 s"}});
   const auto wrong = [&](const std::string &keys, const std::string &words)
   { expect_complaint(machine + "[switch.s]\n" + test::quoted(keys), words); };

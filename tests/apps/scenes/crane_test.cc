@@ -94,7 +94,7 @@ TEST(Crane, TyresThatLiftOff)
 }
 
 // Equilibrium and drift are given as numbers in the reference: q to 16 digits, v to 12.
-TEST(Crane, StaticStartWithItsDriftIsThatOfTheReference)
+TEST(Crane, StaticInitialStateWithItsDriftIsThatOfTheReference)
 {
   const apps::Scene scene =
       apps::read_scene(shipped("crane_minimal.toml"), {"start.rule=\"static\"", "start.drift=true"});

@@ -87,7 +87,7 @@ TEST(EnergyOfRuns, ADrivenJointFeedsTheSameWhetherItsTorqueIsReadOrNot)
   EXPECT_NEAR(input[0], input[1], 1e-9 * std::abs(input[1]));
 }
 
-TEST(EnergyOfRuns, AnElasticStopDissipatesNothingWhereTheStepGoesOverIt)
+TEST(EnergyOfRuns, AnElasticStopDissipatesNothingWhereTheStepSkipsIt)
 {
   for (const char *method : {"bdf", "newmark", "hht", "wilson"})
   {

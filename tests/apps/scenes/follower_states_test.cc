@@ -105,7 +105,7 @@ TEST(FollowerStates, StandWhereAWeightWouldFallAndFlutterBeyond)
   EXPECT_THAT(flutter, ::testing::HasSubstr("exp(2.31 t/s)"));
 }
 
-TEST(FollowerStates, AMachineThatNothingHoldsIsNotRelievedOfAThrust)
+TEST(FollowerStates, AMachineThatIsUnconstrainedIsNotRelievedOfAThrust)
 {
   const std::string flies = planar_body("p", "2", "0.3", "[0, 0, 0]") +
                             element("P", "force",
@@ -166,7 +166,7 @@ TEST(FollowerStates, LimitTheStepByTheFrequenciesTheyHave)
 }
 
 // What grows by itself is no fault of the method.
-TEST(FollowerStates, ThatFlutterAreNoFaultOfTheStep)
+TEST(FollowerStates, ThatFlutterAreNotTheFaultOfTheStep)
 {
   coupling::MethodOptions method = coupling::options_of("central-difference");
   method.step                    = 1e-3;

@@ -77,7 +77,7 @@ TEST(GuideFriction, GrowsByTheMomentItMakes)
   }
 }
 
-TEST(GuideFriction, ThatJamsIsTold)
+TEST(GuideFriction, ThatJamsIsReported)
 {
   const SceneRun motion = stopped(lever("0.6 m"), {"start.v={ \"carriage.ux\" = 1 }", "run.end=0.1 s"}); // k h = 1.5
   for (const char *words : {"no initial state", "the force of \"guide\"", "so that the joint jams"})

@@ -35,7 +35,7 @@ TEST(StickingGuide, HoldsABlockWhoseSlopeIsBelowTheStaticCoefficientExactly)
   EXPECT_NEAR(motion.signal("N").final, weight * std::cos(a), 1e-10);
 }
 
-TEST(StickingGuide, LetsGoAtOnceWhereTheSlopeIsSteeper)
+TEST(StickingGuide, ReleasesAtOnceWhereTheSlopeIsSteeper)
 {
   const SceneRun motion = run(with(sticking_incline, "static = 0.5", "static = 0.35"));
   ASSERT_EQ(motion.result.events.size(), 1u);
@@ -49,7 +49,7 @@ TEST(StickingGuide, LetsGoAtOnceWhereTheSlopeIsSteeper)
 }
 
 /// A pull that jumps from 0 to 40 N at 0.1 s: until then it holds 30 sin(a), from then on it slides.
-TEST(StickingGuide, NeverTellsAForceBeyondItsLimitWhereTheLoadJumps)
+TEST(StickingGuide, NeverReportsAForceBeyondItsLimitWhereTheLoadJumps)
 {
   const SceneRun motion = run(sticking_incline + element("pull", "table force",
                                                          {{"from", "carriage"},
@@ -162,7 +162,7 @@ TEST(StickingJoints, ThatHoldOneMotionComeToRestTogether)
 }
 
 // One after the other reaches its limit: 15 N of the first, then 6 N + 10 N with the first sliding.
-TEST(StickingJoints, ThatHoldOneMotionLetGoOneAfterTheOther)
+TEST(StickingJoints, ThatHoldOneMotionReleaseOneAfterTheOther)
 {
   const SceneRun motion = run(
       train(element("pull", "formula force", {{"from", "two"}, {"direction", "[1, 0, 0]"}, {"force", "20 N/s*t"}})));

@@ -250,7 +250,7 @@ rows = { ux = 2 }
 
 // The natural spline through a step of height 1 swings by 7 to 9 % beyond its level parts; the same rise in a
 // sine has its extremes where the steps change their sign, and no level part.
-TEST(Cam, TableWhoseSplineSwingsBeyondItsRowsIsWarnedOf)
+TEST(Cam, TableWhoseSplineSwingsBeyondItsRowsGivesAWarning)
 {
   const auto warnings = [&](const std::string &rows, const std::string &period = "0")
   {
@@ -260,7 +260,7 @@ TEST(Cam, TableWhoseSplineSwingsBeyondItsRowsIsWarnedOf)
     return test::scene_of(shaft_and_slide + joint("cam", "position function", cam)).warnings;
   };
   const auto step = warnings("[0, 0], [1, 0], [2, 0], [3, 1], [4, 1], [5, 1]");
-  EXPECT_NE(step.at(0).find("scene.toml:13: joint.cam.table: the spline swings"), std::string::npos) << step[0];
+  EXPECT_NE(step.at(0).find("scene.toml:13: joint.cam.table: the spline overshoots"), std::string::npos) << step[0];
   const auto level = warnings("[0, 0], [0.9, 0], [1, 0], [1.01, 1], [1.1, 1], [2, 1]"); // uneven rows
   EXPECT_NE(level.at(0).find("overshoots by 133 the adjacent rows at 1.6"), std::string::npos) << level[0];
   std::string sine;
@@ -331,7 +331,7 @@ TEST(Cam, AKinkOfAPeriodicCourseIsRefusedWithItsPlace)
   EXPECT_NE(short_of.find("the value jumps from 0.00120615 to 0 at 170 deg (if_1_"), std::string::npos) << short_of;
 }
 
-TEST(MeasureJoint, BadInputIsToldWithItsPlace)
+TEST(MeasureJoint, BadInputIsReportedWithItsPlace)
 {
   const auto        joint = [](const std::string &keys) { return shaft_and_slide + "[joint.j]\n" + keys; };
   const std::string cam   = "type = \"position function\"\nfrom = \"shaft\"\n";

@@ -105,7 +105,7 @@ bool warned(const SceneRun &motion, const std::string &name)
   return false;
 }
 
-TEST(StartInsideAContact, IsWarnedOf)
+TEST(StartInsideAContact, GivesAWarning)
 {
   EXPECT_TRUE(warned(run(with(ball, "[start]\n", start("q = { 'ball.uz' = '-102 mm' }")), {"run.end=1 ms"}), "floor"));
   EXPECT_FALSE(warned(run(ball, {"run.end=1 ms"}), "floor"));
@@ -305,7 +305,7 @@ TEST(PlayScenes, RefuseWhatMakesNoSense)
   expect_complaint(with(disc, "clearance = \"0.5 mm\"", "clearance = 0"), "element.bearing.clearance");
   expect_complaint(with(disc, "radius = \"30 mm\"\n", ""), "needs 'radius' of the journal");
   expect_complaint(with(disc, "at = [0, 0, 0]\n", ""), "needs 'at', the centre of the bearing");
-  expect_complaint(with(disc, "axis = [0, 1, 0]", "axis = [1, 0, 0]"), "across the plane of \"disc\"");
+  expect_complaint(with(disc, "axis = [0, 1, 0]", "axis = [1, 0, 0]"), "normal to the plane of \"disc\"");
   expect_complaint(with(disc, "friction = 0.3", "friction = { coefficient = 0.3, static = 0.4 }"),
                    "needs 'static' and 'stribeck_speed' together");
   expect_complaint(with(disc, "friction = 0.3", "friction = { coefficient = 0.3, static = 0.2, stribeck_speed = 1 }"),

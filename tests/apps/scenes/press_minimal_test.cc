@@ -135,7 +135,7 @@ TEST(PressMinimal, FrequenciesMeetTheReferenceWithThePlayClosedAndOpen)
   }
 }
 
-TEST(PressMinimal, SteadyStartReproducesTheGivenOne)
+TEST(PressMinimal, SteadyInitialStateReproducesTheGivenOne)
 {
   const Scene       scene   = read_scene(shipped("press_minimal.toml"));
   coupling::Machine machine = build_machine(scene);

@@ -258,7 +258,7 @@ double torsion_error(double step)
 }
 
 // The measure tells no turns, the law that drives it goes on: 9 rad are 9 - 2 pi on it.
-TEST(RigidBody, IsDrivenThroughManyTurnsByAnAngleThatTellsNone)
+TEST(RigidBody, IsDrivenThroughManyTurnsByAnAngleWithoutTurns)
 {
   const auto motion =
       run(hinged + joint("drive", "prescribed motion", {{"on", "twist"}, {"motion", "{ speed = '3 rad/s' }"}}) +
@@ -302,7 +302,7 @@ TEST(RigidBody, ComesToRestBelowItsJoint)
 }
 
 // 0.1 rad a step: BDF 2 damps the directors by about (w h)^4/4 a step, so that the spin dies away; and says what helps.
-TEST(RigidBody, ALossOfSpinIsWarnedOfWithItsRemedy)
+TEST(RigidBody, ALossOfSpinGivesAWarningWithItsRemedy)
 {
   const std::string top = rigid_body("top", "1", "[0.2, 0.3, 0.4]", "[0, 0, 0]") +
                           start("v = { 'top.wz' = '100 rad/s' }") + steps("1 ms", "0.5 s") + signals("w = 'top.wz'");
@@ -330,7 +330,7 @@ TEST(RigidBody, BadInputIsRefusedWithItsReason)
   expect_complaint(good + rotor_body("wheel", "1", "[0, 0, 1]", {{"on", "top"}}), "is a free spatial body");
   expect_complaint(good + "[element.spring]\ntype = \"spring-damper\"\nfrom = \"top\"\nabout = [0, 0, 1]\n"
                           "stiffness = \"1 N m/rad\"\n",
-                   "act on a [measure]");
+                   "use a [measure]");
   const std::string joint = good + "[joint.pin]\nfrom = \"ground\"\nto = \"top\"\nat = [0, 0, 0]\n";
   expect_complaint(joint + "type = \"revolute\"\n", "axis");
   expect_complaint(joint + "type = \"universal\"\naxis_from = [0, 0, 1]\naxis_to = [0, 1, 1]\n", "right angles");

@@ -44,7 +44,7 @@ TEST(BesideTheRun, ModesAreThoseOfTheStartWhereTheUndeformedMachineHasNone)
 
 /// Two masses of 1 kg on 1 kN/m, tied by a spring beside which that one is lost from epsilon c = 1 kN/m on, 5e18 N/m:
 /// they stand still then, and nothing else tells.
-TEST(BesideTheRun, ForcesThatAreRoundingAreToldOf)
+TEST(BesideTheRun, ForcesThatAreRoundingAreReported)
 {
   const auto warnings = [](const std::string &stiffness)
   {

@@ -105,7 +105,7 @@ TEST(ComparedModes, OfARigidFrameFindTheirPartners)
 }
 
 // The light variant of the reference: F_P_min from -601.647 to -501.089 kN.
-TEST(ComparedRun, OfTheLightVariantTellsItsGain)
+TEST(ComparedRun, OfTheLightVariantReportsItsGain)
 {
   Session session(shipped("press_minimal.toml")), other(shipped("press_minimal_light.toml"));
   require_comparable_runs(session, other);

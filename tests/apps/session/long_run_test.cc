@@ -40,7 +40,7 @@ PeriodicRequest request_by(const std::string &method)
 } // namespace
 
 /// All periodic motions are unstable: that there is chaos is the answer, not a failure.
-TEST(LongRun, OfUedasOscillatorIsToldAsChaos)
+TEST(LongRun, OfUedasOscillatorIsReportedAsChaos)
 {
   PeriodicRequest request     = request_by("minimise");
   request.own["starts"]       = 1;
@@ -92,7 +92,7 @@ TEST(LongRun, IsOfferedWhereTheOnlyMotionIsUnstable)
   EXPECT_THAT(result.notes[0], testing::HasSubstr("--section 256"));
 }
 
-TEST(LongRun, IsToldWhereItIsAskedFor)
+TEST(LongRun, IsReportedWhereItIsAskedFor)
 {
   PeriodicRequest request = request_by("shooting");
   EXPECT_FALSE(periodic_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request).long_run);

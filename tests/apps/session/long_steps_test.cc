@@ -37,7 +37,7 @@ std::string thrown(double end)
 
 /// How long the run is asked to be changes nothing of its begin: longer first steps pass over no stop.  Instants and
 /// extremes differ by what steps of a tolerance of 1e-9 leave after some contacts of 1e5 N/m.
-TEST(LongSteps, PassOverNoStop)
+TEST(LongSteps, SkipNoStop)
 {
   const Result near = long_run_of(thrown(2.));
   ASSERT_GE(near.run->events.size(), 2u);
@@ -52,7 +52,7 @@ TEST(LongSteps, PassOverNoStop)
 }
 
 /// A belt that drags a damped mass: the mass is never faster than it, whatever the run's length.
-TEST(LongSteps, PassOverNoStickingToABelt)
+TEST(LongSteps, SkipNoStickingToABelt)
 {
   const double vb = 0.06;
   for (const double end : {20., 60., 300.})

@@ -57,8 +57,8 @@ TEST(Magnitudes, OfOneMistakeAreNamedByTheMostTelling)
   std::vector<std::string>                 warnings = {"something else"};
   apps::warn_of_magnitudes(found, warnings);
   ASSERT_EQ(warnings.size(), 2u);
-  const std::string first = "a.toml:5: body.b: is 40; expected: at most 2; unexpected, too, perhaps by the same "
-                            "mistake: element.a.damping";
+  const std::string first = "a.toml:5: body.b: is 40; expected: at most 2; also unexpected, perhaps for the same "
+                            "reason: element.a.damping";
   EXPECT_EQ(warnings[1], first);
   apps::warn_of_magnitudes({{"body.b", "moves 3 m; expected: at most 2 m", 3.}}, warnings); // it is named already
   EXPECT_EQ(warnings[1], first);

@@ -121,7 +121,7 @@ TEST_F(Measured, UniversalFilesHoldRealAndComplexValuesOfEvenAndUnevenSpacing)
   expect_curve(pairs[0], {1., 3.}, {7., 8.});
 }
 
-TEST_F(Measured, WhatIsWrongIsToldWithItsPlace)
+TEST_F(Measured, WhatIsWrongIsReportedWithItsPlace)
 {
   using ::testing::HasSubstr;
   const std::string good = "         5         1         1  2.00000E+00  1.00000E+00  0.00000E+00",

@@ -70,7 +70,7 @@ void expect_end_before(double t, const std::string &text)
       EXPECT_NE(run.failure, "");
       if (!coupling::method_of(method).carries_base()) // others know it by the coordinate it acts on alone
       {
-        EXPECT_THAT(run.failure, ::testing::HasSubstr("the law of \"law\" has "));
+        EXPECT_THAT(run.failure, ::testing::HasSubstr("the force law of \"law\" has "));
       }
       EXPECT_THAT(run.failure, ::testing::Not(::testing::HasSubstr("stick")));
       EXPECT_TRUE(all_finite(run.rows));
@@ -90,7 +90,7 @@ TEST(NoNumber, ALawWithNoneFromATimeOnEndsEveryRunThere)
 }
 
 /// Behind an event, in the branch that it chooses.
-TEST(NoNumber, ALawWithNoneBehindAnEventEndsEveryRunThere)
+TEST(NoNumber, ALawWithNoneAfterAnEventEndsEveryRunThere)
 {
   expect_end_before(0.05, slide("if(t < 50 ms, 1 N, 1 N*log(-1 - t/s))"));
 }

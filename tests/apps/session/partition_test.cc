@@ -39,7 +39,7 @@ const std::string reduced = table("reduction", {{"method", "craig-bampton"}, {"m
 } // namespace
 
 /// Every kind of reason by its name; what nothing acts on is superfluous, what is read alone is said to be.
-TEST(Partition, TellsWhatActsOnEveryCoordinate)
+TEST(Partition, ReportsWhatActsOnEveryCoordinate)
 {
   const Partition partition = partition_of(
       chain_reduced(reduced) +

@@ -58,7 +58,7 @@ double nearest(const PeriodicResult &result, int ratio, double x, double v, cons
 } // namespace
 
 /// The three coexisting motions of Duffing's oscillator, with the harmonics of the reference.
-TEST(PeriodicScene, ThreeMotionsOfDuffingsOscillatorAreFoundWithoutBeingTold)
+TEST(PeriodicScene, ThreeSolutionsOfDuffingsOscillatorAreFoundWithoutHints)
 {
   const PeriodicResult result = periodic_of(duffing(0.05, 0.5, 0.3, 1.4));
 
@@ -134,7 +134,7 @@ TEST(PeriodicScene, BranchesTurnWhereTheReferenceSays)
 }
 
 /// A press with motor, play and a sheet for every stroke: the period that shooting finds is that to which it settles.
-TEST(PeriodicScene, ThePressComesRoundInThePeriodToWhichItSettles)
+TEST(PeriodicScene, ThePressCompletesARevolutionInThePeriodToWhichItSettles)
 {
   const auto shot    = periodic_of(Session(press_minimal));
   const auto settled = periodic_of(Session(press_minimal), {"settling"});
@@ -163,7 +163,7 @@ TEST(PeriodicScene, ARunThatStartsOnTheOrbitRepeatsAtOnce)
 }
 
 /// Asked for a motion of two periods, or for twice the period, one of one period is told as such.
-TEST(PeriodicScene, AMotionIsToldByItsOwnPeriod)
+TEST(PeriodicScene, AMotionIsReportedByItsOwnPeriod)
 {
   PeriodicRequest twice, longer;
   twice.method = longer.method = "shooting";
@@ -211,7 +211,7 @@ TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
   EXPECT_THAT(words(test::quoted("gravity = [0, 0, 'x/(1 s^2)']\n[parameters]\nx = '1 m'\n") + slide +
                         cosine_load("slide", 1., 2.),
                     along),
-              testing::HasSubstr("one unit"));
+              testing::HasSubstr("the same unit"));
   along.along = "parameters.y";
   EXPECT_THAT(words(test::quoted("[parameters]\nx = '1 m'\n") + slide + cosine_load("slide", 1., 2.), along),
               testing::HasSubstr("no parameter 'y'"));
@@ -271,7 +271,7 @@ TEST(PeriodicScene, ABranchBeginsAtRestWhereTheLoadIsZero)
   EXPECT_NEAR(x, 0.3 / std::hypot(3., 0.2), 1e-8);
 }
 
-TEST(PeriodicScene, EntriesThatDoNotChangeTheMotionAreNoParameterOfABranch)
+TEST(PeriodicScene, EntriesThatDoNotChangeTheMotionAreNotAParameterOfABranch)
 {
   PeriodicRequest along;
   along.from = "1";

@@ -219,7 +219,7 @@ TEST_F(Window, TheSummaryNamesIt)
   EXPECT_EQ(part.requested.run->from, 0.7);
 }
 
-TEST_F(Window, ComparedRunsOfDifferentWindowsAreWarnedOf)
+TEST_F(Window, ComparedRunsOfDifferentWindowsGiveAWarning)
 {
   const std::string file     = folder_.write("scene.toml", test::quoted(fading));
   const auto        warnings = [&](const std::string &from)

@@ -132,7 +132,7 @@ TEST(SelfExcitedScene, StickAndSlipOnABeltIsItsClosedSolutionAlongABranch)
 }
 
 /// The period is longer by mu^2/16 of it in second order, of which averaging knows nothing.
-TEST(SelfExcitedScene, AveragingTellsWhatItLeavesOutOfThePeriod)
+TEST(SelfExcitedScene, AveragingReportsWhatItLeavesOutOfThePeriod)
 {
   const std::string    begin  = "[run]\nbegin = '10 s'\nend = '20 s'\nmethod = 'exact'\nstep = '10 ms'\n";
   const PeriodicResult result = steady(van_der_pol("(1 N*s/m - 1 N*s/m^3*u^2)*v") + test::quoted(begin), "averaging");
@@ -170,7 +170,7 @@ TEST(SelfExcitedScene, WhatGrowsWithoutEndOrKeepsAnySizeIsSaidTo)
 
 /// Crank and rod are planar bodies, of which one turns and one swings; backwards the machine is its own mirror image,
 /// at the same speed.  Steps of 0.5 ms leave a relative 1e-6 of the period.
-TEST(SelfExcitedScene, APlanarCrankComesRoundInBothDirections)
+TEST(SelfExcitedScene, APlanarCrankCompletesARevolutionInBothDirections)
 {
   const PeriodicResult forward = steady(planar_crank(20., 95.)), backward = steady(planar_crank(-20., -95.));
   ASSERT_EQ(forward.entries.size(), 1u) << forward.failure;

@@ -95,11 +95,11 @@ TEST_F(OfFlight, AreThoseOfTheClosedSolution) // q_max = gap + v_0/omega
   EXPECT_NEAR(output(by, "q.max").derivative[1], -0.8 / 40. / 9600., 1e-11);
 }
 
-TEST_F(OfFlight, WhatIsNoNumberOfTheMachineIsRefusedByName)
+TEST_F(OfFlight, WhatIsNotANumberOfTheMachineIsRefusedByName)
 {
   const auto refused = [&](const std::string &keys, const std::string &words)
   { expect_refusal([&] { differentiated(Session(path_), keys); }, words); };
-  refused("parameters.gapp", "has no entry \"gapp\"; did you mean 'gap'");
+  refused("parameters.gapp", "has no key \"gapp\"; did you mean 'gap'");
   refused("element.stop.stiffnes", "did you mean 'stiffness'");
   refused("element.stop.side", "\"above\" is not a number");
   refused("body.mass.axis", "is an array");
@@ -209,7 +209,7 @@ TEST(Sensitivities, OfTheCraneAreQuotientsOfConvergedRuns)
 }
 
 // Tyres that lift off: frequencies are those of the machine that stands, whatever branches the run leaves.
-TEST(Sensitivities, OfFrequenciesAreThoseOfTheModesThatAreTold)
+TEST(Sensitivities, OfFrequenciesAreThoseOfTheModesThatAreReported)
 {
   const std::string crane = GESTELL_SOURCE_DIR "/apps/scenes/crane_minimal_lift.toml";
   const auto        found = [&](const std::string &rope)
@@ -241,7 +241,7 @@ TEST(Sensitivities, OfThePressAreQuotientsOfConvergedRuns)
   }
 }
 
-TEST(Sensitivities, OfAChaoticMotionTellHowFarTheyHold)
+TEST(Sensitivities, OfAChaoticMotionReportHowFarTheyHold)
 {
   // The follower leaves the cam at every turn.
   const auto result =

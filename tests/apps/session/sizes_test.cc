@@ -52,16 +52,16 @@ TEST(Sizes, ALimitOfTheProcessIsAvailableMemory)
   EXPECT_LT(fem::available_memory(), 80e6);
 }
 
-TEST(Sizes, ModesOfALargeMachineAreLeftOutOfARunAndToldSo)
+TEST(Sizes, ModesOfALargeMachineAreLeftOutOfARunAndReportedSo)
 {
   Session      session = session_of(row_of_sliders(601));
   const Result result  = session.run();
   EXPECT_TRUE(result.run->failure.empty()) << result.run->failure;
   EXPECT_TRUE(result.coupled_modes.empty());
-  EXPECT_THAT(result.warnings, testing::Contains(HasSubstr("of 601 coordinates")));
+  EXPECT_THAT(result.warnings, testing::Contains(HasSubstr("with 601 DOFs")));
 }
 
-TEST(Sizes, ModesAreLeftOutWhereNoneAreAskedFor)
+TEST(Sizes, ModesAreOmittedWhereNoneAreAskedFor)
 {
   Session      session = session_of(row_of_sliders(3), {"modes.number=0"});
   const Result result  = session.run();

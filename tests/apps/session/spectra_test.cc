@@ -102,7 +102,7 @@ TEST(Spectra, OfAPrimeNumberOfRowsFindTheFrequency)
 }
 
 /// 8192 lines of 10 s end at 819 Hz; what swings above is left out, not folded.
-TEST(Spectra, LeaveOutWhatStandsAboveTheLastLine)
+TEST(Spectra, LeaveOutWhatIsAboveTheLastLine)
 {
   const auto found = spectra(sine(1300., 1. / 4000., 40001), 0.);
   ASSERT_TRUE(found.has_value());

@@ -101,7 +101,7 @@ TEST(Stages, OfASoftlyBrakedCraneRingInItsLinearisedModes)
   }
 }
 
-TEST(Stages, OfTyresThatLiftOffRingBehindTheLastTouchDown)
+TEST(Stages, OfTyresThatLiftOffRingAfterTheLastTouchDown)
 {
   const apps::Result result = crane_run({}, "crane_minimal_lift.toml");
   ASSERT_EQ(stages_of(result).lift_offs.size(), 3u);
@@ -110,7 +110,7 @@ TEST(Stages, OfTyresThatLiftOffRingBehindTheLastTouchDown)
   EXPECT_EQ(stages_of(result).ringing.begin, stages_of(result).lift_offs[2].end);
 }
 
-TEST(Stages, TellHowFarALimitWasMissed)
+TEST(Stages, ReportHowFarALimitWasMissed)
 {
   const apps::Result result = crane_run({"switch.limiter.above=\"900 kN\"", "run.end=\"1 s\""});
   for (const char *words :
@@ -141,8 +141,7 @@ TEST(Switches, EndTheRunWithTheirStatement)
   const std::vector<std::string> tips = {
       "switch.tips={when=\"chassis.angle\", below=\"-0.02 rad\", ends=\"the crane tips over its front axle\"}"};
   const apps::Result result = crane_run(tips);
-  EXPECT_THAT(result.run->failure,
-              ::testing::HasSubstr("the crane tips over its front axle: chassis.angle lies below"));
+  EXPECT_THAT(result.run->failure, ::testing::HasSubstr("the crane tips over its front axle: chassis.angle is below"));
   EXPECT_EQ(result.run->events.back().name, "tips");
   const auto &rows = result.run->rows;
   EXPECT_NEAR(rows[rows.size() - result.run->columns.size()], result.run->events.back().t, 1e-12); // the last row
@@ -166,7 +165,8 @@ TEST(Scenes, LeaveOutWhatTheyDoNotWantOfAnother)
   EXPECT_EQ(apps::read_scene(without("[\"element.air\"]")).elements.size() + 1,
             apps::read_scene(base, {}).elements.size());
   expect_refusal([&] { apps::read_scene(without("[\"element.ari\"]")); }, "did you mean 'element.air'");
-  expect_refusal([&] { apps::read_scene(folder.write("alone.toml", "without = [\"element.air\"]")); }, "nothing is");
+  expect_refusal([&] { apps::read_scene(folder.write("alone.toml", "without = [\"element.air\"]")); },
+                 "there is no 'extends'");
 }
 
 } // namespace

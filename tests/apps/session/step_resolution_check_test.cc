@@ -63,13 +63,13 @@ TEST(StepResolutionCheck, OfAHarmonicLoadBelowTwoStepsAPeriodAreRefused)
               Not(HasSubstr("run.step: "))); // carried exactly
 }
 
-TEST(StepResolutionCheck, AreToldBelowTenStepsAPeriodOfALoad)
+TEST(StepResolutionCheck, AreReportedBelowTenStepsAPeriodOfALoad)
 {
   EXPECT_THAT(warnings_of(harmonic("125 Hz") + run_at("1 ms")), HasSubstr("8 steps in a period of the load of 125 Hz"));
   EXPECT_THAT(warnings_of(harmonic("50 Hz") + run_at("1 ms")), Not(HasSubstr("run.step")));
 }
 
-TEST(StepResolutionCheck, OfFormulasAndProfilesAreToldHoweverTheyMeetTheSteps)
+TEST(StepResolutionCheck, OfFormulasAndProfilesAreReportedHoweverTheyMeetTheSteps)
 {
   const auto formula = [](const std::string &frequency)
   { return pushed("formula force", "force = '10 N*cos(2*pi*" + frequency + "*t)'"); };
@@ -86,7 +86,7 @@ TEST(StepResolutionCheck, OfFormulasAndProfilesAreToldHoweverTheyMeetTheSteps)
   EXPECT_THAT(warnings_of(profile("50 ms", "100 ms") + run_at("1 ms")), Not(HasSubstr("run.step")));
 }
 
-TEST(StepResolutionCheck, OfAPulseWithinAStepAreToldAndAStepOfForceIsNot)
+TEST(StepResolutionCheck, OfAPulseWithinAStepAreReportedAndAStepOfForceIsNot)
 {
   const auto pulse = [](const std::string &width)
   { return pushed("formula force", "force = '1e4 N*exp(-((t-0.1005 s)/(" + width + "))^2)'"); };
@@ -98,7 +98,7 @@ TEST(StepResolutionCheck, OfAPulseWithinAStepAreToldAndAStepOfForceIsNot)
               Not(HasSubstr("run.step")));
 }
 
-TEST(StepResolutionCheck, OfAnUnbalanceThatTurnsByAWholeTurnInAStepAreTold)
+TEST(StepResolutionCheck, OfAnUnbalanceThatTurnsByAWholeTurnInAStepAreReported)
 {
   const auto turning = [](const std::string &speed)
   {
@@ -109,7 +109,7 @@ TEST(StepResolutionCheck, OfAnUnbalanceThatTurnsByAWholeTurnInAStepAreTold)
            element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "10000"}, {"damping", "5"}});
   };
   EXPECT_THAT(warnings_of(turning("6283.185307179586 rad/s") + run_at("1 ms")),
-              HasSubstr("'disc' turns by 360 degrees"));
+              HasSubstr("'disc' rotates by 360 degrees"));
   EXPECT_THAT(warnings_of(turning("60 rad/s") + run_at("1 ms")), Not(HasSubstr("run.step")));
 }
 

@@ -131,7 +131,7 @@ TEST(PlayEstimates, OfAnUndampedSliderAreNearItsPeriod)
 }
 
 // The cutting shock of the reference: the fall takes 6.2 ms, a quarter of the periods of f2 and f3 and half of f4's.
-TEST(Story, OfThePressTellsItsCuttingShock)
+TEST(Story, OfThePressReportsItsSnapThroughShock)
 {
   const apps::Result result = reported(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
   ASSERT_TRUE(result.story);
@@ -293,7 +293,7 @@ TEST(EventLog, DoesNotDependOnTheDistanceOfRows)
 
 // A bead of 1 kg on a stop of 10 N/mm that it meets with v = omega A, A = 2 mm, omega = 100/s, takes from it
 // 2 m v = 0.4 N s within half a period, pi/omega.
-TEST(EventLog, OfABeadHasTheMomentumThatItsStopTurnsRound)
+TEST(EventLog, OfABeadHasTheMomentumThatItsStopReverses)
 {
   const test::SceneFolder folder;
   const apps::Result      result = reported(folder.write("bead.toml", bead));

@@ -238,7 +238,7 @@ TEST(ModalSuperposition, WarnsWhereTheMachineOfTheMomentIsAnother)
 }
 
 /// Damping in proportion to the stiffness couples no modes, a damper at the tip does.
-TEST(ModalSuperposition, TellsWhatDiagonalDampingLeavesOut)
+TEST(ModalSuperposition, ReportsWhatDiagonalDampingLeavesOut)
 {
   const ChainScene  scene;
   const std::string damper = "[element.damper]\ntype = 'spring-damper'\nfrom = 'frame.tip'\nto = 'ground'\n"
@@ -265,7 +265,7 @@ TEST(ModalSuperposition, NotesWhatIsLostOfAGivenStart)
   EXPECT_NEAR(all[0].max, 1e-3, 1e-6);
 }
 
-TEST(ModalSuperposition, IsNoGroundForBranches)
+TEST(ModalSuperposition, IsNotAGroundForBranches)
 {
   const ChainScene scene;
   PeriodicRequest  request;

@@ -221,7 +221,7 @@ TEST(Unbalance, AtRestHasAForceWithoutAResponseInFirstOrder)
   EXPECT_FALSE(answer_of(table("start", {{"v", "{ rotor = 60 }"}})).pairs.empty());
 }
 
-TEST(Unbalance, WhatCannotBeIsToldWithItsRemedy)
+TEST(Unbalance, WhatCannotBeIsReportedWithItsRemedy)
 {
   using ::testing::HasSubstr;
   const std::string run = run_of("method = \"exact\"\nstep = 1e-4", "0.1 s", "1 ms");

@@ -99,7 +99,7 @@ TEST(ErrorBudget, IsNearTheTrueErrorOfStepsAndModes)
 }
 
 /// Joints leave no exact method: half the step tells 3/4 of an error of second order, and the budget the whole of it.
-TEST(ErrorBudget, OfStepsAloneIsTheErrorThatTheirOrderTells)
+TEST(ErrorBudget, OfStepsAloneIsTheErrorThatTheirOrderPredicts)
 {
   const auto with = [](const std::string &method)
   {
@@ -117,7 +117,7 @@ TEST(ErrorBudget, OfStepsAloneIsTheErrorThatTheirOrderTells)
 }
 
 /// Modes count against the coordinates of frame and mechanism together, also where the frame has but one.
-TEST(ErrorBudget, OfASuperpositionCountsTheModesLeftOut)
+TEST(ErrorBudget, OfASuperpositionCountsTheOmittedModes)
 {
   std::string text =
       "name = 'few'\n[frame]\nmass = [[1]]\nstiffness = [[4e5]]\n[frame.interface.tip]\n"
@@ -145,7 +145,7 @@ TEST(ErrorBudget, OfASuperpositionCountsTheModesLeftOut)
   EXPECT_GE(*budget.entries[0].reduction.error, 0.5 * error);
 }
 
-TEST(ErrorBudget, HasNothingToTellOfPartsThatDoNotErr)
+TEST(ErrorBudget, HasNothingToReportOfPartsThatDoNotErr)
 {
   const Read        whole(rod("method = 'none'", by_steps));
   const auto        outputs = of_scene(whole.scene, "modes.2");
@@ -240,7 +240,7 @@ TEST(OutputName, IsRefusedWithTheWayOut)
 {
   const std::vector<std::string> signals = {"F_P", "x slide"};
   for (const auto &[given, words] :
-       {std::pair("F_Q.max", "did you mean F_P.max?"), std::pair("F_P", "say what of it: F_P.max"),
+       {std::pair("F_Q.max", "did you mean F_P.max?"), std::pair("F_P", "name one of its numbers: F_P.max"),
         std::pair("F_P.mean", "valid: max, min"), std::pair("events", "is a count"),
         std::pair("work.steps", "is a count"), std::pair("modes.9", "is not among the 4 listed modes"),
         std::pair("modes.x", "needs the number of a mode")})
@@ -285,7 +285,7 @@ TEST(Size, ShowsAllModelsAboutTheChosenOne)
 }
 
 /// The fourth mode of the held rod, the last that a loose tolerance keeps, has 400 Hz: a load of 350 Hz is near it.
-TEST(Size, NamesLoadsNearTheHighestModeKept)
+TEST(Size, NamesLoadsNearTheHighestRetainedMode)
 {
   for (const double hertz : {350., 2.})
   {

@@ -127,7 +127,7 @@ TEST(EffectPicture, HasABarForEachVariableAndWhatTwoAdd)
   const StudyFindings findings = complete_findings();
   const std::string   svg      = effect_picture(findings.surfaces[0], std::nan(""));
 
-  EXPECT_THAT(svg, HasSubstr("Change of F [kN] from 200 kN in the middle"));
+  EXPECT_THAT(svg, HasSubstr("Change of F [kN] from 200 kN at the midpoint"));
   EXPECT_THAT(svg, HasSubstr("-10 / +10")) << "c_P";
   EXPECT_THAT(svg, HasSubstr("+5 / +5")) << "s_cl";
   EXPECT_THAT(svg, HasSubstr("±2")) << "c_P × s_cl";

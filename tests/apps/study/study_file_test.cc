@@ -33,7 +33,7 @@ struct Written
   std::string path;
 };
 
-TEST(StudyFile, VariablesAreEntriesOfTheSceneInTheirOwnUnit)
+TEST(StudyFile, VariablesAreParametersOfTheSceneInTheirOwnUnit)
 {
   const StudyFile study = Written(everything).study();
   ASSERT_EQ(study.variables.size(), 2u);
@@ -129,7 +129,7 @@ TEST(StudyFile, TakesADimensionThatIsVariedByFiles)
   says(with("{ file = 'a.step', value = 'thick' }, { file = 'b.step', value = 2 }"), "needs a number");
 }
 
-TEST(StudyFile, WhatIsWrongIsToldWithItsPlace)
+TEST(StudyFile, WhatIsWrongIsReportedWithItsPlace)
 {
   const auto says = [](const std::string &text, const std::string &words)
   {

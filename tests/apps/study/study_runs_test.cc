@@ -120,7 +120,7 @@ TEST(StudyRuns, AreTheSameSideBySideInSharesAndInOneProcess)
   EXPECT_EQ(merged.table.n_done(), 9);
 }
 
-TEST(StudyRuns, ThatFailAreToldAndTheOthersGoOn)
+TEST(StudyRuns, ThatFailAreReportedAndTheOthersGoOn)
 {
   const Folder      folder("study_failed");
   const StudyAnswer answer = answered(small(folder), folder, {"outputs.root=\"sqrt(0.5 mm - s_cl)\""});
@@ -166,7 +166,7 @@ TEST(StudyRuns, ThatFailLeaveTheOthersInEveryDesign)
   }
 }
 
-TEST(StudyRuns, OfAFinishedStudyAreBegunAnewByRanksTogether)
+TEST(StudyRuns, OfAFinishedStudyAreBegunAgainByRanksTogether)
 {
   const Folder folder("study_anew");
   answered(small(folder), folder);
@@ -251,7 +251,7 @@ TEST(EventKinds, AreThoseOfAllGuards)
 }
 
 // The limiter switches later the more it allows; the crane is followed for 0.3 s from there on.
-TEST(StudyRuns, TakeParametersThatTheyTellFromThemselves)
+TEST(StudyRuns, TakeParametersThatTheyDefine)
 {
   const Folder folder("study_measure");
   folder.file("s.toml", "[scene]\nfile = '" GESTELL_SOURCE_DIR "/apps/scenes/crane_minimal.toml'\n"
@@ -309,7 +309,7 @@ TEST(OptimumScene, LeavesOutWhatLiesDeeperThanANamedEntry)
   EXPECT_EQ(brake->find("ramps")->elements.size(), 2u);
   folder.file("wrong.toml", "extends = 'optimum.toml'\nwithout = ['joint.cylinder.motion.break']\n");
   expect_refusal([&] { read_scene_file((folder / "wrong.toml").string(), {}); },
-                 "without: 'joint.cylinder.motion.break': the scene that is extended has no such entry");
+                 "without: 'joint.cylinder.motion.break': the base scene has no such table");
   folder.file("plain.toml", "extends = 'optimum.toml'\nwithout = ['joint.cylinder.motion.brake']\n");
   const SceneNode plain = read_scene_file((folder / "plain.toml").string(), {});
   EXPECT_FALSE(plain.find("joint")->find("cylinder")->find("motion")->find("brake"));
@@ -360,7 +360,7 @@ TEST(StudyRuns, OfAnotherStudyOrOfOneThatWasChangedAreNotGoneOnWith)
   EXPECT_EQ(answered(small(folder), folder, {"surface.order=\"linear\""}).n_made, 4); // made of the same rows
   folder.file("other.toml", small_study);
   expect_refusal([&] { answered((folder / "other.toml").string(), folder); },
-                 "holds rows of the study 'small', this one is 'other'");
+                 "contains rows of the study 'small', but this study is 'other'");
 }
 
 TEST(StudyRuns, AreRefusedBeforeTheFirstWhereTheSceneCannotDoThem)
@@ -370,7 +370,7 @@ TEST(StudyRuns, AreRefusedBeforeTheFirstWhereTheSceneCannotDoThem)
   expect_refusal(with("variables.c_P.key=\"parameters.cP\""),
                  "has no parameter 'cP' in parameters; did you mean 'c_P'?");
   expect_refusal(with("variables.c_P.key=\"element.rot.stiffness\""),
-                 "has no entry 'rot' in element; did you mean 'rod'?");
+                 "has no key 'rot' in element; did you mean 'rod'?");
   expect_refusal(with("variables.c_P.key=\"element.rod\""), "is a table of the scene");
   expect_refusal(with("variables.s_cl.from=\"-0.1 mm\""),
                  "small.toml:7: variables.s_cl: -0.1 mm of variable s_cl the scene does not accept");

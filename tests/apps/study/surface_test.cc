@@ -243,7 +243,7 @@ TEST(ResponseSurface, NamesWhatASingularDesignConfounds)
               ::testing::ContainsRegex("runs (c = 2 b|b = 0.5 c);"));
 }
 
-TEST(ResponseSurface, OfATableLeavesOutRunsThatFailedAndTellsIfTooFewAreLeft)
+TEST(ResponseSurface, OfATableLeavesOutRunsThatFailedAndReportsIfTooFewAreLeft)
 {
   std::vector<StudyVariable> variables(3);
   for (int i = 0; i < 3; ++i)

@@ -131,7 +131,7 @@ struct MapCase
   std::string path;
 };
 
-TEST(Verify, AnIntervalWithoutAnEndIsNoLongOne)
+TEST(Verify, AnIntervalWithoutAnEndIsNotALongOne)
 {
   expect_answer(MapCase("central,0,2,inf\n").verified(), 0, {"all passed"});
   expect_answer(MapCase("central,0,2,1e300\n").verified(), 3, {"obtained ∞"});
@@ -226,7 +226,7 @@ TEST(Verify, CasesThatSayWhatThereIsNotAreRefusedWithTheirPlace)
           "compute = 'modes'\nwith = { alongg = 'mass' }\n");
 }
 
-TEST(Verify, NamesThatAreNoCaseAreRefusedWithTheNearest)
+TEST(Verify, NamesThatAreNotACaseAreRefusedWithTheNearest)
 {
   expect_answer(gestell("verify 'conical pendulums'"), 2, {"conical pendulum", "--list"});
   expect_answer(gestell("verify no_such.toml"), 2, {"no_such.toml"});

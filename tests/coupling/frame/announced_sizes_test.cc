@@ -103,7 +103,7 @@ TEST_F(AnnouncedSizes, OfPetscAreJudgedByTheFile)
                      });
 }
 
-TEST_F(AnnouncedSizes, SixteenBytesOfPetscAreNoMatrixOfAllMemory)
+TEST_F(AnnouncedSizes, SixteenBytesOfPetscAreNotAMatrixOfAllMemory)
 {
   for (const bool dense : {false, true})
   {

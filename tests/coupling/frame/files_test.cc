@@ -105,7 +105,7 @@ TEST(TemporaryDirectory, IsNewAndOfItsUserAloneAndGoesWithItsOwner)
   EXPECT_FALSE(fs::exists(first));
 }
 
-TEST(TemporaryDirectory, ThatHasNoPlaceIsToldWithTheVariableThatSaysWhere)
+TEST(TemporaryDirectory, ThatHasNoPlaceIsReportedWithTheVariableThatSaysWhere)
 {
   const char       *there  = std::getenv("TMPDIR");
   const std::string before = there ? there : "";
@@ -141,7 +141,7 @@ void expect_unreachable(const fs::path &name, const std::string &reason)
   EXPECT_THROW(fem::names_something(name), std::invalid_argument) << name;
 }
 
-TEST(NamedFile, IsToldWhereTheFileSystemDoesNotSay)
+TEST(NamedFile, IsReportedWhereTheFileSystemDoesNotSay)
 {
   const Folder folder("named_file");
   fs::create_symlink("ring", folder / "ring");

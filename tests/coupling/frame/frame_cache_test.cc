@@ -47,7 +47,7 @@ TEST_F(FrameCache, FindsAFrameByItsKeyAlone)
   EXPECT_NE(note.find("other inputs"), std::string::npos) << note;
 }
 
-TEST_F(FrameCache, MakesAFrameOnceAndAnewWhereTheKeptOneIsDamaged)
+TEST_F(FrameCache, MakesAFrameOnceAndAgainWhereTheKeptOneIsDamaged)
 {
   int        n_made = 0;
   const auto make   = [&]
@@ -128,7 +128,7 @@ TEST_F(FrameCache, CountsAFrameOfAnotherProcessOnceWithItsProcessorTime)
   EXPECT_NEAR(coupling::cached_or_made(origin, of_parts).cpu, 500., 1.) << "a part that was found costs what it cost";
 }
 
-TEST_F(FrameCache, ThatCannotBeWrittenIsToldAndDoesNoHarm)
+TEST_F(FrameCache, ThatCannotBeWrittenIsReportedAndDoesNoHarm)
 {
   std::ofstream(folder / "file") << "no folder";
   setenv("GESTELL_CACHE", (folder / "file").c_str(), 1);
@@ -136,7 +136,7 @@ TEST_F(FrameCache, ThatCannotBeWrittenIsToldAndDoesNoHarm)
   EXPECT_TRUE(coupling::cache_entries().empty());
 }
 
-TEST_F(FrameCache, OnAFullDiskIsToldAndLeavesNothing)
+TEST_F(FrameCache, OnAFullDiskIsReportedAndLeavesNothing)
 {
   // A process of its own, whose files may not grow beyond 4096 bytes: what a full disk looks like from inside.
   const pid_t child = fork();
@@ -182,7 +182,7 @@ TEST_F(FrameCache, ManyProcessesMayWriteTheSameFrame)
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1); // no pieces are left
 }
 
-TEST_F(FrameCache, ListsFramesWithTheirOriginAndTellsWhichCannotBeUsed)
+TEST_F(FrameCache, ListsFramesWithTheirOriginAndReportsWhichCannotBeUsed)
 {
   coupling::keep_in_cache(some_frame(), fine);
   coupling::keep_in_cache(some_frame(), coarse);

@@ -187,7 +187,7 @@ TEST_F(PetscBinary, WhatIsWrittenIsReadBitByBit)
   EXPECT_EQ(MatrixXd(coupling::read_petsc_matrix(file)), A);
 }
 
-TEST_F(PetscBinary, IsToldFromMatrixMarketByItsContent)
+TEST_F(PetscBinary, IsDistinguishedFromMatrixMarketByItsContent)
 {
   coupling::write_matrix_market(file, known, "");
   EXPECT_EQ(MatrixXd(coupling::read_matrix_file(file)), known);

@@ -79,7 +79,7 @@ TEST_F(ReducedFrameFile, EveryChangedByteIsNoticed)
   EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument);
 }
 
-TEST_F(ReducedFrameFile, ForeignFilesAndOtherVersionsAreToldApart)
+TEST_F(ReducedFrameFile, ForeignFilesAndOtherVersionsAreDistinguished)
 {
   coupling::write_reduced_frame(file, some_frame());
   std::string other           = bytes(file);
@@ -175,7 +175,7 @@ TEST_F(ReducedFrameFile, DamagedAddressesAreAMessageWhereTheChecksumIsNotAsked)
   EXPECT_GT(refusals<std::runtime_error>(file, as_it_is, read), 5);
 }
 
-TEST_F(ReducedFrameFile, HeadIsNotTakenForDamagedWhereTheLimitOfTimeIsNoNumber)
+TEST_F(ReducedFrameFile, HeadIsNotTakenForDamagedWhereTheLimitOfTimeIsNotANumber)
 {
   coupling::write_reduced_frame(file, some_frame());
   setenv("GESTELL_READING_SECONDS", "often", 1);

@@ -235,7 +235,7 @@ TEST(ErrorScale, MotionsAreMeasuredByThoseThatLoadsToComeWouldBring)
   EXPECT_DOUBLE_EQ(measured(1e-3, 3), measured(1e-3, 0));
 }
 
-TEST(ErrorScale, TellsOfMotionsThatAreNotFinite)
+TEST(ErrorScale, ReportsMotionsThatAreNotFinite)
 {
   const ModalSystem system(Matrix::Identity(2, 2), Matrix::Zero(2, 2), Matrix::Identity(2, 2));
   ErrorScale        scale(system, system.linear().spectrum(), 1e-6);

@@ -333,7 +333,7 @@ TEST(Stability, RootsOfPolynomialsIncludeZeroesAndWideScales)
   }
 }
 
-TEST(Stability, RefusesWhatIsNoOscillator)
+TEST(Stability, RefusesWhatIsNotAnOscillator)
 {
   EXPECT_THROW(step_properties({}, {0., 0.}), std::invalid_argument);
   EXPECT_THROW(step_properties({}, {-0.1, 1.}), std::invalid_argument);

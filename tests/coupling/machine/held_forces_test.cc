@@ -156,7 +156,7 @@ RunResult run_held(Machine machine, const MethodOptions &method, double end)
 
 using BriefOverload = ::testing::TestWithParam<Way>;
 
-TEST_P(BriefOverload, LetsGoWhatSticksAndIsNeverHeldByMore)
+TEST_P(BriefOverload, ReleasesWhatSticksAndIsNeverHeldByMore)
 {
   const double    end    = 0.45; // it slides until 0.5 s and longer
   const RunResult result = run_held(loaded_beyond_its_limit(), GetParam().method, end);

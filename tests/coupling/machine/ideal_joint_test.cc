@@ -278,7 +278,7 @@ TEST(Assembly, NamesTheJointThatStaysOpenAndTheOneThatIsOneTooMany)
   known.q_given                 = {0, 0, 1};
   known.v_given.assign(3, 0);
   const auto assembled = [&] { coupling::assemble(machine, known); };
-  expect_refusal(assembled, "one equation is redundant:\n  \"right\" (fx), which holds \"bar\", follows from the "
+  expect_refusal(assembled, "one equation is redundant:\n  \"right\" (fx), which constrains \"bar\", follows from the "
                             "equations of \"left\"");
   known.state.q[2] = 0.3;
   expect_refusal(assembled, "has a gap of");

@@ -11,7 +11,7 @@ namespace
 
 using namespace coupling;
 
-TEST(Load, AsItIsToldIsThatWhichActs)
+TEST(Load, AsItIsReportedIsThatWhichActs)
 {
   MachineModel model;
   const int    x = model.add_slider("a", {1., 0., 0.}, 3., "ground");

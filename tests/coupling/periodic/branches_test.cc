@@ -47,7 +47,7 @@ private:
 
 /// Every motion of the table, subharmonic ones too, as near as the note says; the mean that nothing of the base holds
 /// is an unknown.
-TEST(HarmonicBalance, MeetsTheTableOfPlayAsWellAsItTells)
+TEST(HarmonicBalance, MeetsTheTableOfPlayAsWellAsStated)
 {
   int rows = 0;
   for (const ReferenceRow &row : read_reference("periodic/clearance_periodic.csv"))

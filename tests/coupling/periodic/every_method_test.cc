@@ -155,7 +155,7 @@ TEST(EveryMethod, FindsTheLimitCycleOfVanDerPol)
 
 /// phi'' J = M_0 - c phi' - k sin(phi), with a phase off zero.  With bearing damping the free motion has a zero and a
 /// decaying eigenvalue, without two zeros.
-TEST(EveryMethod, FindsTheSpeedOfARotorThatNothingHolds)
+TEST(EveryMethod, FindsTheSpeedOfARotorThatIsUnconstrained)
 {
   const MatrixXd one = MatrixXd::Identity(1, 1);
   for (const double bearing : {0.3, 0.})

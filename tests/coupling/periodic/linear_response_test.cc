@@ -109,7 +109,7 @@ TEST(LinearResponse, KeepsJointsClosed)
   }
 }
 
-TEST(LinearResponse, TakesMotionsThatNothingHolds)
+TEST(LinearResponse, TakesUnconstrainedMotions)
 {
   // Two masses on one spring: together they are free, and dampers do not reach them.
   LinearMachine machine(2, 0);

@@ -71,7 +71,7 @@ TEST(Recurrence, OfUedasOscillatorIsChaos)
 }
 
 /// Without a spring and pushed, x = F t^2/2: neighbours part as t, and the mean of logarithms falls only as ln K / K.
-TEST(Recurrence, OfAFreeMotionIsNoChaos)
+TEST(Recurrence, OfAFreeMotionIsNotChaos)
 {
   const MatrixXd one = MatrixXd::Identity(1, 1), zero = MatrixXd::Zero(1, 1);
   for (const int periods : {64, 256, 1000})

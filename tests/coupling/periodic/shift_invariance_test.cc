@@ -187,7 +187,7 @@ TEST(VerifiedOrbit, RefutesAMotionThatClosesByWholeTurnsOnly)
 }
 
 /// Along a branch three motions are run, and all of them where one goes away.
-TEST(VerifiedOrbit, OfABranchIsThatOfThreeMotionsOfEachStretch)
+TEST(VerifiedOrbit, OfABranchIsThatOfThreeSolutionsOfEachStretch)
 {
   RotorTrain      system = belt_drive(3.7);
   PeriodicGuess   guess;

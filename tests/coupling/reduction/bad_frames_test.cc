@@ -32,7 +32,7 @@ fem::FrameMatrices floating(std::vector<fem::Interface> interfaces)
   return frame;
 }
 
-TEST(FreeMotion, OfAFrameThatNothingHoldsIsNamedInWords)
+TEST(FreeMotion, OfAFrameThatIsUnconstrainedIsNamedAsText)
 {
   const std::string message = message_of(floating({}));
   for (const char *words : {"translation along x", "translation along y", "translation along z", "rotation about x",

@@ -80,7 +80,7 @@ bool finds_or_breaks_down(coupling::ModeSearch &search, int count, const std::st
   }
 }
 
-TEST_P(Eigensolver, FindsTheLowestModesOfTheHeldFrameAndSomeMore)
+TEST_P(Eigensolver, FindsTheLowestModesOfTheFixedFrameAndSomeMore)
 {
   const HeldLattice lattice;
   const auto        search = lattice.search(GetParam());
@@ -117,7 +117,7 @@ TEST_P(Eigensolver, FindsTheModeThatIsMissingAmongThoseKnown)
 
 INSTANTIATE_TEST_SUITE_P(OfOursAndOfSlepc, Eigensolver, ::testing::Values("block-lanczos", "krylov-schur", "lobpcg"));
 
-TEST(EigensolverOptions, ThatPetscDoesNotKnowAreToldAsItTells)
+TEST(EigensolverOptions, ThatPetscDoesNotKnowAreReportedAsByPetsc)
 {
   const HeldLattice lattice;
   tests::expect_refusal<coupling::ConvergenceFailure>([&] { lattice.search("no-such-type")->find(3); },

@@ -79,7 +79,7 @@ TEST(Guyan, TellsModesOfTheInsideThatItLeavesOut)
   EXPECT_NEAR(between.frequency_limit_hz, 0.5 * (held(2) + held(3)), 1e-12 * held(3));
 }
 
-TEST(Guyan, TellsHowFarItsFrequenciesHold)
+TEST(Guyan, ReportsHowFarItsFrequenciesHold)
 {
   Lattice lattice;
   lattice.foundation       = 3e5; // so soft that the lowest modes are those of a rigid block on it

@@ -85,7 +85,7 @@ TEST(FloatingFrame, CountsItsOwnMotionsWhereSoftOnesAreHardlyMoreThanRounding)
   }
 }
 
-TEST(LumpedMasses, HaveAsManyModesAsThereAreAndNoMoreAreLookedFor)
+TEST(LumpedMasses, HaveAsManyModesAsThereAreAndNoMoreAreSearchedFor)
 {
   auto frame = frame_of(Lattice());
   for (int i = 0; i < frame.M.rows(); ++i)
@@ -154,7 +154,7 @@ private:
   double growth_;
 };
 
-TEST(Completeness, IsNotToldWhereRoundingMayMoveAFrequencyAcrossTheGap)
+TEST(Completeness, IsNotReportedWhereRoundingMayMoveAFrequencyAcrossTheGap)
 {
   // In the middle of the gap, 100.5^2 - 100^2 = 100.25, rounding moves omega^2 by growth 2.2e-16 (1e12 + 1e4).
   const double largest = 100.25 / (std::numeric_limits<double>::epsilon() * (1e12 + 1e4));

@@ -86,7 +86,7 @@ TEST(FreeInterfaceModes, WithoutANumberReachHalfAgainBeyondTheHighestFrequencyOf
   EXPECT_LT(largest_frequency_error(frame, reduced, 6, 8), 1e-8);
 }
 
-TEST(FreeInterfaceModes, GiveAnErrorOfTheModesKeptAlone)
+TEST(FreeInterfaceModes, GiveAnErrorOfTheRetainedModesAlone)
 {
   for (const bool is_floating : {true, false})
   {
@@ -116,7 +116,7 @@ TEST(FreeInterfaceModes, AreCountedByInertiaBesideRigidMotions)
 }
 
 /// Single vectors pass over the repeated frequencies of a cube; the inertia with nothing held tells.
-TEST(FreeInterfaceModes, PassedOverAreCountedSearchedForAndFound)
+TEST(FreeInterfaceModes, SkippedAreCountedSearchedForAndFound)
 {
   fem::FrameMatrices frame;
   frame.C          = cube_stiffness(9);

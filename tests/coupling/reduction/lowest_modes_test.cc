@@ -106,7 +106,7 @@ TEST_P(BlockSize, AllRepeatedFrequenciesOfACubeAreFound)
 }
 INSTANTIATE_TEST_SUITE_P(AtLeastAsLargeAsTheMultiplicity, BlockSize, ::testing::Values(6, 12, 25));
 
-TEST(BlockLanczos, StartedAnewFromItsBestVectorsFindsTheSame)
+TEST(BlockLanczos, RestartedFromItsBestVectorsFindsTheSame)
 {
   const Structure s       = cube(9);
   const auto      exact   = test::cube_frequencies(9);
@@ -121,7 +121,7 @@ TEST(BlockLanczos, StartedAnewFromItsBestVectorsFindsTheSame)
   EXPECT_LT((found.V.transpose() * found.V - MatrixXd::Identity(20, 20)).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(BlockLanczos, GoesOnToAGapAndTellsWhatLiesBelow)
+TEST(BlockLanczos, GoesOnToAGapAndReportsWhatLiesBelow)
 {
   const Structure s     = cube(6);
   const auto      exact = test::cube_frequencies(6); // 1, 3, 3, 1 + 6 ... times
@@ -182,7 +182,7 @@ fem::FrameMatrices cube_frame()
 }
 
 /// Single vectors pass over repeated frequencies; the inertia tells.
-TEST(FixedInterfaceModes, PassedOverAreCountedSearchedForAndFound)
+TEST(FixedInterfaceModes, SkippedAreCountedSearchedForAndFound)
 {
   const auto frame   = cube_frame();
   const auto exact   = test::cube_frequencies(9);

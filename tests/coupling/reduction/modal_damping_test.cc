@@ -171,7 +171,7 @@ TEST(AutomaticNumber, KeepsTheFirstTwelveFrequenciesWithinTheToleranceWithTheFew
   }
 }
 
-TEST(AutomaticNumber, TellsWhereItStopsShort)
+TEST(AutomaticNumber, ReportsWhereItStopsShort)
 {
   coupling::ReductionOptions options;
   options.frequency = 400.; // more than 200 modes lie below 1.5 times as much

@@ -107,7 +107,7 @@ TEST(ReducedStress, OfStaticLoadsIsThatOfTheFullFrameWithAnyNumberOfModes)
     }
 }
 
-TEST(ReducedStress, OfAVibrationErrsAsTheModesLeftOutAre)
+TEST(ReducedStress, OfAVibrationErrsAsTheOmittedModesAre)
 {
   // A mode of fixed-interface frequency omega_j that is left out lacks the share omega^2 / omega_j^2 of what inertia
   // asks of it.  Many are left out, and short waves stress more than they move: a few times the first share.

@@ -55,7 +55,7 @@ Vector3d reaction(const ReducedFrame &frame, const VectorXd &p, const Vector3d &
 /// What is left is rounding of statics, some digits of 1e-16 times a condition of 1e6.
 constexpr double rounding = 1e-8;
 
-TEST(SupportForces, AtRestCarryTheWeightWhateverModesAreLeftOut)
+TEST(SupportForces, AtRestCarryTheWeightWhateverModesAreOmitted)
 {
   const Vector3d g(1., -2., -9.81);
   for (const auto &frame : bars())
@@ -69,7 +69,7 @@ TEST(SupportForces, AtRestCarryTheWeightWhateverModesAreLeftOut)
     }
 }
 
-TEST(SupportForces, AnswerTheForcesAtAnInterfaceWhateverModesAreLeftOut)
+TEST(SupportForces, AnswerTheForcesAtAnInterfaceWhateverModesAreOmitted)
 {
   for (const auto &frame : bars())
     for (const int modes : {0, 6})

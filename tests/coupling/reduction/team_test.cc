@@ -22,7 +22,7 @@ TEST(Team, WorksTogether)
   EXPECT_TRUE(answer.says("2 ranks took part\nthen 2 ranks took part")) << answer.text;
 }
 
-TEST(Team, IsToldOfAFailureThatAllAgreeOnAndGoesOn)
+TEST(Team, IsInformedOfAFailureThatAllAgreeOnAndGoesOn)
 {
   const Answer answer = trial("agreed");
   EXPECT_EQ(answer.exit_code, 0) << answer.text;

@@ -83,7 +83,7 @@ TEST(FrameDerivative, IsThatOfTheMatricesWhateverModesTheTwoFramesAreIn)
   EXPECT_LT(found.curvature, 1e-3);
 }
 
-TEST(FrameDerivative, HasACurvatureThatTellsScatterOfItsFrames)
+TEST(FrameDerivative, HasACurvatureThatShowsScatterOfItsFrames)
 {
   const MatrixXd same = MatrixXd::Identity(m, m);
   ReducedFrame   plus = frame_at(1e-3, same);

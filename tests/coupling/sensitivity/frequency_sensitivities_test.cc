@@ -100,7 +100,7 @@ Machine geared(const VectorXd &x)
 }
 
 // omega^2 = c / (m_1 + n^2 m_2); the ratio of the gear turns its joint and nothing else.
-TEST(FrequencySensitivities, SeeWhatAParameterMakesOfAJoint)
+TEST(FrequencySensitivities, SeeWhatAParameterDoesToAJoint)
 {
   const VectorXd                 x = (VectorXd(4) << 3., 1.5, 4000., 0.7).finished();
   const std::vector<std::string> open;

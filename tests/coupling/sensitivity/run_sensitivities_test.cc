@@ -86,7 +86,7 @@ Differentiated by_fixed_steps(double omega_h)
   return differentiated(bouncing, x, options);
 }
 
-TEST(RunSensitivities, OfAContactTooStiffForTheStepsOfTheRunAreWarnedOf)
+TEST(RunSensitivities, OfAContactTooStiffForTheStepsOfTheRunGiveAWarning)
 {
   // h^2/3 omega^3 (pi/omega) = (omega h)^2 pi/3: 0.17 and 2e-4 of steps of 0.4 and 0.014
   ASSERT_EQ(by_fixed_steps(0.4).found.warnings.size(), 1u);
@@ -94,7 +94,7 @@ TEST(RunSensitivities, OfAContactTooStiffForTheStepsOfTheRunAreWarnedOf)
   EXPECT_TRUE(by_fixed_steps(0.014).found.warnings.empty());
 }
 
-TEST(RunSensitivities, GoOverAContactWithTheTimeAtWhichItBegins)
+TEST(RunSensitivities, SkipAContactWithTheTimeAtWhichItBegins)
 {
   const double   m = 3., c = 4800., gap = 0.2, v = 0.8, omega = 40.;
   const VectorXd x     = (VectorXd(4) << m, c, gap, v).finished();
@@ -133,7 +133,7 @@ Made stopping(const VectorXd &x)
   return {std::move(machine), start(0., x[1]), std::move(signals)};
 }
 
-TEST(RunSensitivities, GoOverSticking)
+TEST(RunSensitivities, SkipSticking)
 {
   const double    F = 6., v = 1.5, m = 2.;
   const auto      found = differentiated(stopping, (VectorXd(2) << F, v).finished(), fine(1.));

@@ -74,7 +74,7 @@ double told_accuracy(int n, int p)
   return steps.accuracy().off[0];
 }
 
-TEST(VariationalSteps, TellWhatTheMethodOfTheRunWouldMakeOfDerivatives)
+TEST(VariationalSteps, ReportWhatTheMethodOfTheRunWouldDoToDerivatives)
 {
   // h^2/3 omega^3 T of order 2 and h/2 omega^2 T of order 1, as s' goes through omega T, but for a
   // factor: s grows to its largest at T.

@@ -26,7 +26,7 @@ double lost_share(double step, double end)
   return 1. - std::exp(-2. * std::pow(two_pi * step, 4) / 4. * end / step);
 }
 
-TEST(EnergyGuard, AnOscillatorThatKeepsItsEnergyIsNoOpenBalance)
+TEST(EnergyGuard, AnOscillatorThatKeepsItsEnergyIsNotAnOpenBalance)
 {
   const RunResult result = oscillation(1. / 200, 10.);
   EXPECT_EQ(result.failure, "");
@@ -65,7 +65,7 @@ TEST(EnergyGuard, AMachineThatHangsAtRestHasNothingToExchange)
   EXPECT_TRUE(result.findings.empty()) << result.findings[0].text;
 }
 
-TEST(EnergyGuard, EnergyFromNowhereIsNoMotion)
+TEST(EnergyGuard, SpuriousEnergyIsNotAMotion)
 {
   EnergyGuard guard;
   EnergyState state;
@@ -95,7 +95,7 @@ TEST(EnergyGuard, WorkThatGoesThroughIsTheMeasureOfADrivenMachine)
   EXPECT_EQ(guard.words("BDF 2"), "");
 }
 
-TEST(EnergyGuard, WhatALoadGivesAndTakesBackIsNoWorkThatGoesThrough)
+TEST(EnergyGuard, WhatALoadGivesAndTakesBackIsNotWorkThatGoesThrough)
 {
   // 1 J in and out in each of 1000 periods, of which a thousandth is lost every time: all of the joule in the end.
   EnergyGuard guard;
@@ -111,7 +111,7 @@ TEST(EnergyGuard, WhatALoadGivesAndTakesBackIsNoWorkThatGoesThrough)
   EXPECT_EQ(guard.verdict(), Verdict::open);
 }
 
-TEST(EnergyGuard, AnEnergyThatIsNoNumberEndsTheRun)
+TEST(EnergyGuard, AnEnergyThatIsNotANumberEndsTheRun)
 {
   for (double EnergyState::*part : {&EnergyState::input, &EnergyState::stored, &EnergyState::dissipated})
     for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()})
@@ -124,7 +124,7 @@ TEST(EnergyGuard, AnEnergyThatIsNoNumberEndsTheRun)
     }
 }
 
-TEST(EnergyGuard, RoundingOfManyStepsIsNoError)
+TEST(EnergyGuard, RoundingOfManyStepsIsNotAnError)
 {
   EnergyGuard guard;
   EnergyState state;

@@ -155,7 +155,7 @@ double reported(const Drop &drop)
   return about == std::string::npos ? 0. : 0.01 * std::strtod(drop.warnings.c_str() + about + 8, nullptr);
 }
 
-TEST(ForceBandwidthCheck, OfALoadSetDownLeaveTheDoubtThatIsTold)
+TEST(ForceBandwidthCheck, OfALoadSetDownLeaveTheDoubtThatIsReported)
 {
   const auto full = rod(pieces - 1);
   for (const int m : {1, 2})

@@ -150,7 +150,7 @@ TEST(Recorder, TakesRowsAndPicturesFromTheDenseOutputWhereNoStepEnds)
   EXPECT_NEAR(result.signals[0].final, std::sin(omega * 0.505), 1e-14);
 }
 
-TEST(Recorder, PicturesShowTheEventAndFollowCloselyBehindIt)
+TEST(Recorder, PicturesShowTheEventAndFollowCloselyAfterIt)
 {
   const RunResult result = recorded(0.03, false, 1., 0.1, {}, 0.333);
   // 0, 0.1 .. 0.3, the event, eight to a step from 0.3375 to 0.725 and 0.8, 0.9, 1

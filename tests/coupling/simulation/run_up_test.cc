@@ -30,7 +30,7 @@ RunResult run_up(const std::string &method, int order, double tolerance)
   return simulate(machine, at_rest(machine), options, {machine.signal("T", "shaft.torque")});
 }
 
-TEST(RunUp, OfAMotorTellsThePeakOfTheShaftByExactPropagationWithATolerance)
+TEST(RunUp, OfAMotorReportsThePeakOfTheShaftByExactPropagationWithATolerance)
 {
   const double peak = run_up("bdf", 5, 1e-9).signals[0].max;
   EXPECT_NEAR(peak, 295.4, 0.1);
@@ -51,7 +51,7 @@ TEST(RunUp, EndsWithTheTorqueOfTheLoad)
   }
 }
 
-TEST(DryFriction, WithoutLocatedEventsIsWarnedOf)
+TEST(DryFriction, WithoutLocatedEventsGivesAWarning)
 {
   MachineModel  model;
   const Measure x = slider(model, "x", 5.);

@@ -93,7 +93,7 @@ TEST(JoinedParts, ConvergeFromAboveWithTheModesOfParts)
   EXPECT_LT(last, 2e-3);
 }
 
-TEST(JoinedParts, KnowHowMuchTheModesLeftOutRaiseFrequencies)
+TEST(JoinedParts, KnowHowMuchTheOmittedModesRaiseFrequencies)
 {
   const auto     bars  = two_bars();
   const auto     full  = one_piece(bars);

@@ -244,7 +244,7 @@ TEST(BadJoints, AreRefusedWithTheirPlaceAndAWayOut)
   EXPECT_THAT(joint_refusal(bars, described(bars, {loose})), HasSubstr("free relative to the others"));
 }
 
-TEST(Contacts, AreToldToOpenWhereNothingPressesThem)
+TEST(Contacts, AreReportedAsOpeningWhereNothingPressesThem)
 {
   const auto pieces = column_between();
   EXPECT_THAT(joined(pieces, tightened(pieces, 0.), 2).facts.notes,

@@ -132,7 +132,7 @@ TEST(AttachedMass, JoinsMassCentreAndInertiaOfTheFrame)
 }
 
 /// A centre in millimetres without its unit is told.
-TEST(AttachedMass, FartherFromItsFacesThanTheFrameIsLargeIsTold)
+TEST(AttachedMass, FartherFromItsFacesThanTheFrameIsLargeIsReported)
 {
   auto near               = free_steel();
   near.masses             = {motor(2., {1., 0.5, 0.4})};

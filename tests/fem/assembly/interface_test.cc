@@ -150,7 +150,7 @@ TEST(PointCoupling, StandsWhereTheSurfaceIsNearest)
   EXPECT_LT((at({2., 3., 0.}) - Eigen::Vector3d(1., 0.8, 1.5)).norm(), 1e-12) << "beyond a corner";
 }
 
-TEST(PointCoupling, HasSixMotionsThatCostNoEnergyTogether)
+TEST(PointCoupling, HasSixRigidBodyModesThatCostNoEnergyTogether)
 {
   auto specification     = point_block({0.31, 0.22, 1.5});
   specification.supports = {};

@@ -161,7 +161,7 @@ TEST(NodeInterfaces, BesideOthersAndAttachedMassesKeepTheirCoordinates)
   EXPECT_NE(message.find("mass \"box\": interface \"b\" is a single node"), std::string::npos) << message;
 }
 
-TEST(NodeInterfaces, TellWhereTheyStandIfThatIsNotWhatWasAskedFor)
+TEST(NodeInterfaces, ReportWhereTheyStandIfThatIsNotWhatWasAskedFor)
 {
   EXPECT_TRUE(discretise(tetrahedra(), clamped_block({node("tip", box_size)})).notes.empty());
   const auto notes = discretise(tetrahedra(), clamped_block({node("tip", {1., 0.8, 1.6})})).notes;
@@ -176,7 +176,7 @@ TEST(NodeInterfaces, TellWhereTheyStandIfThatIsNotWhatWasAskedFor)
       << "what the mesh tells stays";
 }
 
-TEST(PointInterfaces, BesideTheirSurfaceAreTold)
+TEST(PointInterfaces, BesideTheirSurfaceAreReported)
 {
   auto point     = interface("tip", {"z1"}, fem::InterfaceCoupling::point);
   point.position = Vector3{0.5, 0.4, 1.51}; // no farther than the facets of a curved surface could be

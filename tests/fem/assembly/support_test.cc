@@ -109,7 +109,7 @@ TEST(Rayleigh, DampsInProportionToMassAndStiffnessOfTheMaterial)
   EXPECT_LT((B - 3. * Eigen::MatrixXd(with.M) - 2e-5 * C).norm(), 1e-12 * B.norm()) << "springs of the feet stay out";
 }
 
-TEST(Rayleigh, OfMassIsWarnedOfWhereNothingHoldsTheFrame)
+TEST(Rayleigh, OfMassGivesAWarningWhereTheFrameIsUnconstrained)
 {
   auto frame          = bar_on_springs();
   frame.rayleigh_mass = 3.;
@@ -327,7 +327,7 @@ TEST(CutForce, ThroughAPlaneBesideTheFrameIsRefused)
   expect_refusal([&] { discretise(upright_bar(), specification); }, "normal is zero");
 }
 
-TEST(FreeMotions, AreNamedInWords)
+TEST(FreeMotions, AreNamedAsText)
 {
   const auto names = [](std::vector<fem::Support> supports)
   {
@@ -356,7 +356,7 @@ TEST(FreeMotions, OfAHingeHaveTheAxisAndAPointOfIt)
             std::vector<std::string>{"rotation about y through (0, 0.15, 0) m"});
 }
 
-TEST(FreeMotions, EndWhereTheInterfaceIsHeld)
+TEST(FreeMotions, EndWhereTheInterfaceIsFixed)
 {
   auto specification       = free_steel();
   specification.interfaces = {interface("top", {"z1"}, fem::InterfaceCoupling::average)};

@@ -93,7 +93,7 @@ TEST(InpMesh, WithALineThatIsNoneIsRefused)
               AllOf(HasSubstr("mesh.inp:9"), HasSubstr("1000001 characters")));
 }
 
-TEST(InpMesh, OfBytesThatAreNoTextIsRefusedWithTheLine)
+TEST(InpMesh, OfBytesThatAreNotTextIsRefusedWithTheLine)
 {
   EXPECT_THAT(mesh_refusal(tetrahedron + std::string("2, 1, \0\0\0, 4\n", 13)),
               AllOf(HasSubstr("mesh.inp:8"), HasSubstr("not text"), HasSubstr("UTF-16")));
@@ -157,7 +157,7 @@ std::string notes_of(const std::string &file, const std::string &text)
 }
 
 // The triangles around the box stand before its cells.
-TEST(InpMesh, WithoutItsLastCellsIsToldByTheSurfaceThatLostThem)
+TEST(InpMesh, WithoutItsLastCellsIsReportedByTheSurfaceThatLostThem)
 {
   const std::string whole = box_by_gmsh("whole.inp");
   EXPECT_THAT(notes_of("mesh.inp", whole), Not(HasSubstr("truncated")));
@@ -173,7 +173,7 @@ bool is_cell_at_corner(const std::string &line, int n_nodes)
   return int(numbers.size()) == 5 + n_nodes && std::count(numbers.begin() + 5, numbers.end(), 1) > 0;
 }
 
-TEST(MshMesh, WithoutSomeOfItsCellsIsToldByTheSurfaceThatLostThem)
+TEST(MshMesh, WithoutSomeOfItsCellsIsReportedByTheSurfaceThatLostThem)
 {
   const std::pair<Cells, int> kinds[] = {{Cells::tetrahedra, 4}, {Cells::prisms, 6}, {Cells::hexahedra, 8}};
   for (const auto &[cells, n_nodes] : kinds)
@@ -237,7 +237,7 @@ const std::vector<std::string> cells = {"4 2 1 1 1 2 3 8",         // tetrahedro
                                         "5 2 1 1 1 2 4 3 5 6 8 7", // hexahedron
                                         "17 2 1 1 1 2 4 3 5 6 8 7 1 3 5 2 6 4 8 7 5 6 8 7"};
 
-TEST(MshMesh, WithCoordinatesThatAreNoNumbersIsRefusedForEveryKindOfCells)
+TEST(MshMesh, WithCoordinatesThatAreNotNumbersIsRefusedForEveryKindOfCells)
 {
   for (const std::string &cell : cells)
     for (const std::string x : {"nan", "inf", "-inf", "1e400"})
@@ -287,7 +287,7 @@ std::string binary_stl(float x)
   return bytes;
 }
 
-TEST(StlSurface, WithCoordinatesThatAreNoNumbersIsRefused)
+TEST(StlSurface, WithCoordinatesThatAreNotNumbersIsRefused)
 {
   const auto measured = [](float x) { return measure_part({write_text("part.stl", binary_stl(x)), 1., "body"}); };
   EXPECT_NEAR(measured(1.f).volume, 1. / 6., 1e-12);
@@ -295,7 +295,7 @@ TEST(StlSurface, WithCoordinatesThatAreNoNumbersIsRefused)
     EXPECT_NE(gestell::tests::refusal([&] { measured(x); }), "") << x;
 }
 
-TEST(GeoScript, OfLengthsThatAreNoNumbersIsRefused)
+TEST(GeoScript, OfLengthsThatAreNotNumbersIsRefused)
 {
   for (const std::string length : {"1e400", "0/0", "Log(-1)", "1e200"})
     EXPECT_THAT(

@@ -238,7 +238,7 @@ std::string quadratic_cube(double bulge)
   return text.str() + "\n";
 }
 
-TEST(InpMesh, OfQuadraticHexahedraTellsHowFarTheirNodesLieBesideStraightEdges)
+TEST(InpMesh, OfQuadraticHexahedraReportsHowFarTheirNodesLieBesideStraightEdges)
 {
   FrameSpecification s        = specification(write_text("straight.inp", quadratic_cube(0.)), 0.);
   const Mesh         straight = make_mesh(s);
@@ -346,7 +346,7 @@ TEST(InpMesh, WhoseKeywordsChangeItsMeaningIsRefusedWithTheWayOut)
   EXPECT_EQ(read_inp({write_text("plain.inp", plain), 0., "here"}).numbers.size(), 8u);
 }
 
-TEST(InpMesh, TellsOfTiesItLeavesOut)
+TEST(InpMesh, ReportsTiesItLeavesOut)
 {
   const std::string path = write_text("tied.inp", cube() + "*TIE, NAME=T\nA, B\n*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n");
   EXPECT_THAT(read_inp({path, 0., "here"}).notes,
@@ -399,7 +399,7 @@ TEST(Mesh, WhoseBodiesLieUponEachOthersNodesIsRefusedOrMerged)
   EXPECT_EQ(make_mesh(s).points.size(), 16u);
 }
 
-TEST(Mesh, WithNodesNoCellUsesTellsThem)
+TEST(Mesh, WithNodesNoCellUsesReportsThem)
 {
   const std::string text = cube() + "*NODE\n77, 5, 5, 5\n";
   const Mesh        mesh = make_mesh(specification(write_text("unused.inp", text), 0.));

@@ -129,7 +129,7 @@ TEST(SolidsWithAGap, AreJoinedWhereTheGapIsAllowed)
   EXPECT_NEAR(area_of_skin(mesh), 10 * 0.01, 1e-4);
 }
 
-TEST(SolidsWithAGap, ThatIsNoSmallShareOfTheirThicknessAreRefused)
+TEST(SolidsWithAGap, ThatIsNotASmallShareOfTheirThicknessAreRefused)
 {
   // A cube of 100 mm has 2 V / A = 33.3 mm.
   FrameSpecification s = specification(two_cubes(100.05), 0.05);
@@ -148,7 +148,7 @@ TEST(SolidsWithAGap, ThatIsNoSmallShareOfTheirThicknessAreRefused)
                     HasSubstr("mesh.bodies = 2")));
 }
 
-TEST(SolidsOfAScript, ThatMaterialsNameWronglyAreToldBeforeTheMesh)
+TEST(SolidsOfAScript, ThatMaterialsNameWronglyAreReportedBeforeTheMesh)
 {
   FrameSpecification s = in_millimetres(two_cubes_of_a_script(100., 20.));
   s.materials          = {{"rigth", {70e9, 0.3, 2700., "scene.toml:9"}}};

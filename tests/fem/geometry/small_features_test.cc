@@ -37,7 +37,7 @@ std::string block_with_details()
               });
 }
 
-TEST(SmallFeatures, AreToldWithTheirPlaceWhereTheyForceSmallElements)
+TEST(SmallFeatures, AreReportedWithTheirPlaceWhereTheyForceSmallElements)
 {
   const GeometryReport report = report_geometry(specification(block_with_details(), 0.1));
   EXPECT_THAT(report.smallest, AllOf(HasSubstr("shortest edge"), HasSubstr("narrowest face")));
@@ -128,7 +128,7 @@ TEST(Memory, OfAveragedSurfacesComesOnTop)
   }
 }
 
-TEST(Memory, ThatIsNotThereIsToldBeforeMeshing)
+TEST(Memory, ThatIsNotThereIsReportedBeforeMeshing)
 {
   const double gib = 1024. * 1024. * 1024.;
   EXPECT_NO_THROW(require_memory("", reduction_memory(1e5, 0.3), 64. * gib, "place", "advice"));

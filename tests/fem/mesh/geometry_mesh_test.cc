@@ -99,7 +99,7 @@ TEST(ManyShortEdges, AroundADiscDoNotMakeItsInsideFine)
                           { return note.find("elements grow from them to the size") != std::string::npos; }));
 }
 
-TEST(ManyShortEdges, ThatTheSizeAsksForAreNoneToBeTold)
+TEST(ManyShortEdges, ThatTheSizeAsksForAreNotReported)
 {
   const GeometryReport report = report_geometry(specification(disc_of_sides(120), 0.04));
   EXPECT_TRUE(report.notes.empty()) << report.notes[0];
@@ -254,7 +254,7 @@ TEST(PressFrame, HasTheExpectedNumberOfCellsWithinAFactorOfOneAndAHalf)
   }
 }
 
-TEST(CellQuality, OfABlockWithAMisplacedPointIsMendedWithoutChangingTheBlock)
+TEST(CellQuality, OfABlockWithAMisplacedPointIsRepairedWithoutChangingTheBlock)
 {
   Mesh mesh; // the cube [-1, 1]^3: six faces of two triangles, joined with a point inside
   for (int i = 0; i < 8; ++i)

@@ -174,7 +174,7 @@ TEST(CadBody, PyramidOfTetrahedraOrTrianglesHasItsClosedForm)
   }
 }
 
-TEST(CadBody, ThatIsNoClosedBodyIsRefused)
+TEST(CadBody, ThatIsNotAClosedBodyIsRefused)
 {
   EXPECT_THAT(complaint("/no/such/rod.step"), AllOf(StartsWith("scene.toml:7: body.rod"), HasSubstr("does not exist")));
   const std::string sheet = draw("sheet.step", [] { occ::addRectangle(0., 0., 0., 100., 100.); });

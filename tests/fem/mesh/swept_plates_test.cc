@@ -260,7 +260,7 @@ TEST(SweptPlates, BecomeTetrahedraWhereAFaceIsOblique)
                                          HasSubstr("face "), HasSubstr("normal"))));
 }
 
-TEST(SweptPlates, TellWhatWasFound)
+TEST(SweptPlates, ReportWhatWasFound)
 {
   FrameSpecification   s      = swept(draw("bored.step", bored_plate), 0.);
   const GeometryReport report = report_geometry(s);

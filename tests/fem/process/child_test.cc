@@ -264,7 +264,7 @@ TEST(InChild, AnInterruptionEndsTheChildAndRemovesItsFiles)
   EXPECT_FALSE(files::exists(folder));
 }
 
-TEST(InChild, ProgressIsToldAgainWhileNothingHappensSoThatItMayInterrupt)
+TEST(InChild, ProgressIsReportedAgainWhileNothingHappensSoThatItMayInterrupt)
 {
   struct Interruption
   {

@@ -54,7 +54,7 @@ const std::vector<Key> &mesh_keys()
       key::choice(
           "plates", {"tetrahedra", "swept"}, true,
           "`\"swept\"` meshes walls in hexahedra through the thickness, narrow along the edges of plates and up to "
-          "`size` wide between them: thin plates need far fewer coordinates for the same accuracy. Tubes, pins and "
+          "`size` wide between them: thin plates need far fewer DOFs for the same accuracy. Tubes, pins and "
           "other "
           "solids with a constant section are swept along their axis. Each remaining solid becomes tetrahedra, and a "
           "note "

@@ -61,8 +61,8 @@ const std::vector<Key> &matrix_frame_keys()
                  "meaning (node and direction) of numbered rows: a `.dof` of CalculiX or a `.mapping` of Ansys")
           .by_default("from the matrices, if their format contains it"),
       key::table("file_units", file_unit_keys(),
-                 "units of the files of another program: of matrices whose rows are known, and of node positions; "
-                 "matrices written in the scene are in SI units")
+                 "units of files from another program (matrices with known rows, node positions); matrices in the "
+                 "scene are in SI units")
           .by_default("kg, m, s, N"),
       key::plain("nodes", Key::Form::file,
                  "table of nodes (CSV) with interfaces and positions, also for pictures; if rows are known, also a "
