@@ -243,7 +243,7 @@ const std::vector<KeyGroup> &key_groups()
       {{"joint"}, "Motion over time", motion_law_keys(), "motion"},
       {{"joint"}, "Compliance of a joint", compliance_keys()},
       {{"joint"}, "Friction of a joint", joint_friction_key().keys, "friction"},
-      {{"element"}, "Motion of an element", load_motion_keys()},
+      {{"element"}, "Motion of an element", motion_keys()},
       {{"element"}, "Shaft of a motor", shaft_keys()},
       {{"element"},
        "Asynchronous motors",
@@ -253,7 +253,7 @@ const std::vector<KeyGroup> &key_groups()
        "Engagement",
        keys_of("brake", {"capacity", "static_capacity", "engagement", "initial_engagement", "waits"})},
       {{"element"}, "Bearing", keys_of("rolling bearing", {"from", "to", "at", "at_from", "at_to", "axis"})},
-      {{"element"}, "Stiffness of a contact", joined({contact_keys(), {sliding_friction_key()}})},
+      {{"element"}, "Stiffness of a contact", contact_keys()},
       {{"element"}, "Friction of a contact", sliding_friction_key().keys, "friction"}};
   return groups;
 }

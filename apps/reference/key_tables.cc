@@ -79,18 +79,14 @@ bool has_own_signals(const DeclaredTable &table)
                      { return family_of(other) == family_of(table) && other.signals != table.signals; });
 }
 
-/// Whether a value of one of the keys is more than a number, a word or a vector; `gestell help` prints all examples.
+/// Whether a value of one of the keys is a list of rows or tables, or a formula; `gestell help` prints all examples.
 bool needs_example(const std::vector<Key> &keys)
 {
-  const auto is_nested = [](Key::Form form)
-  {
-    using Form = Key::Form;
-    return form == Form::profile || form == Form::course || form == Form::rows || form == Form::tables ||
-           form == Form::formula || form == Form::map;
-  };
   return std::any_of(keys.begin(), keys.end(),
-                     [&](const Key &key)
-                     { return is_nested(key.form) || std::any_of(key.others.begin(), key.others.end(), is_nested); });
+                     [](const Key &key) {
+                       return key.form == Key::Form::rows || key.form == Key::Form::tables ||
+                              key.form == Key::Form::formula;
+                     });
 }
 
 std::string section(const DeclaredTable &table)

@@ -145,7 +145,7 @@ void describe(Visitor &v, const Result &x)
   v("scene", x.scene, "", "name of the scene");
   v("version", x.version, "", "version of the program");
   v("commit", unless_empty(x.commit), "", "commit from which the program was built; null: unknown");
-  v("command", x.command, "", "version of the program");
+  v("command", x.command, "", "name of the command");
   v("asked", x.requested, "", "request");
   v.maybe(x.run.has_value(), "outcome", outcome_of(run, x.requested), "", "outcome of the run");
   v("model", x.model, "", "size and accuracy of the model");
