@@ -8,13 +8,14 @@ namespace gestell::apps
 {
 
 AnalysisEntry periodic_analysis(), along_analysis(), sensitivity_analysis(), stage_analysis(), compare_run_analysis(),
-    budget_analysis(), spectra_analysis(), frf_analysis(), compare_modes_analysis();
+    budget_analysis(), spectra_analysis(), frf_analysis(), compare_modes_analysis(), damping_for_analysis();
 
 const std::vector<AnalysisEntry> &analyses()
 {
-  static const std::vector<AnalysisEntry> all = {periodic_analysis(), along_analysis(),       sensitivity_analysis(),
-                                                 stage_analysis(),    compare_run_analysis(), budget_analysis(),
-                                                 spectra_analysis(),  frf_analysis(),         compare_modes_analysis()};
+  static const std::vector<AnalysisEntry> all = {
+      periodic_analysis(),      along_analysis(),      sensitivity_analysis(), stage_analysis(),
+      compare_run_analysis(),   budget_analysis(),     spectra_analysis(),     frf_analysis(),
+      compare_modes_analysis(), damping_for_analysis()};
   return all;
 }
 
