@@ -8,13 +8,15 @@ namespace gestell::apps
 {
 
 AnalysisEntry periodic_analysis(), along_analysis(), sensitivity_analysis(), stage_analysis(), compare_run_analysis(),
-    budget_analysis(), spectra_analysis(), frf_analysis(), compare_modes_analysis(), life_analysis();
+    budget_analysis(), spectra_analysis(), frf_analysis(), compare_modes_analysis(), damping_for_analysis(),
+    life_analysis();
 
 const std::vector<AnalysisEntry> &analyses()
 {
   static const std::vector<AnalysisEntry> all = {
-      periodic_analysis(), along_analysis(),   sensitivity_analysis(), stage_analysis(),         compare_run_analysis(),
-      budget_analysis(),   spectra_analysis(), frf_analysis(),         compare_modes_analysis(), life_analysis()};
+      periodic_analysis(),      along_analysis(),       sensitivity_analysis(), stage_analysis(),
+      compare_run_analysis(),   budget_analysis(),      spectra_analysis(),     frf_analysis(),
+      compare_modes_analysis(), damping_for_analysis(), life_analysis()};
   return all;
 }
 

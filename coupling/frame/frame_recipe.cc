@@ -124,10 +124,21 @@ public:
   }
   void add(const std::string &name, const fem::ModalRatios &value)
   {
-    const auto &[constant, by_mode, by_frequency] = value;
+    const auto &[constant, named, by_frequency] = value;
     add(name, constant);
-    add(name + ".by_mode", by_mode);
     add(name + ".by_frequency", by_frequency);
+    add(name + ".named", named);
+  }
+  void add(const std::string &name, const fem::NamedRatio &value)
+  {
+    const auto &[ratio, mode, from, to, points, shape, place] = value; // place: for messages
+    add(name, ratio);
+    add(name + ".mode", mode);
+    add(name + ".from", from);
+    add(name + ".to", to);
+    add(name + ".points", points);
+    add(name + ".shape", Eigen::VectorXd(shape.real()));
+    add(name + ".phase", Eigen::VectorXd(shape.imag()));
   }
   void add(const std::string &name, const fem::AttachedMass &value)
   {

@@ -38,6 +38,7 @@ void MachineModel::set_frame(ReducedFrame frame)
 {
   parts_->n_frame     = static_cast<int>(frame.M.rows());
   parts_->n_interface = frame.n_interface;
+  parts_->own_modes   = turn_to_own_modes(frame);
   parts_->add_interfaces(frame.interfaces);
   parts_->reduced = std::make_unique<ReducedFrame>(std::move(frame));
 }

@@ -154,13 +154,22 @@ void MachineParts::assemble_dense(int n)
     damping.topLeftCorner(n_frame, n_frame)   = reduced->B;
     stiffness.topLeftCorner(n_frame, n_frame) = reduced->C;
     translation_loads.topRows(n_frame)        = reduced->translations_load;
-    if (reduced->modal)
+    if (reduced->modal && !own_modes)
       modal = {n_interface, n_frame - n_interface};
   }
   add_to(mass, M);
   add_to(damping, B);
   add_to(stiffness, C);
-  base = std::make_unique<DenseBase>(std::move(mass), std::move(damping), std::move(stiffness), modal);
+  const auto is_mode = [&](int i) { return i >= n_interface && i < n_frame; };
+  const auto fits    = [&](const Triplets &A)
+  {
+    return std::none_of(A.begin(), A.end(),
+                        [&](const auto &entry) { return is_mode(entry.row()) || is_mode(entry.col()); });
+  };
+  if (own_modes && fits(M) && fits(B) && fits(C))
+    base = std::make_unique<OwnModeBase>(mass, damping, stiffness, *own_modes);
+  else
+    base = std::make_unique<DenseBase>(std::move(mass), std::move(damping), std::move(stiffness), modal);
 }
 
 void MachineParts::assemble_sparse(int n)

@@ -5,6 +5,7 @@
 #include "coupling/machine/linear_base.h"
 #include "coupling/machine/machine_model.h"
 #include "coupling/machine/modal_coordinates.h"
+#include "coupling/machine/own_modes.h"
 #include "mechanism/transmitted_element.h"
 
 #include <map>
@@ -128,6 +129,7 @@ struct MachineParts
 
   // building
   std::unique_ptr<ReducedFrame>       reduced;
+  std::optional<OwnModes>             own_modes; ///< of the reduced frame, if it is in their coordinates
   std::unique_ptr<fem::FrameMatrices> full;
   int                                 n_frame = 0, n_interface = 0;
   Vector3                             gravity{};

@@ -1,6 +1,7 @@
 #include "coupling/machine/dense_base.h"
 #include "coupling/machine/machine.h"
 #include "coupling/machine/machine_parts.h"
+#include "coupling/machine/machine_system.h"
 #include "fem/values/two_pi.h"
 
 #include <cmath>

@@ -50,12 +50,15 @@ double fit(const Mode &mode, const std::complex<double> &s, double own)
 }
 
 /// Damped frequencies and ratios, from the quadratic eigenproblem in the undamped modes; each of them takes the
-/// vibrating solution in which it is largest.
+/// vibrating solution in which it is largest.  In the state (omega y, y') all entries are of the size of omega, so that
+/// rounding of the highest mode does not reach the ratios of the low ones.
 void add_damping(const DenseModes &modes, const InModes &in_modes, std::vector<Mode> &result)
 {
-  const int       p = static_cast<int>(modes.omega.size());
-  Eigen::MatrixXd state(2 * p, 2 * p);
-  state << Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd::Identity(p, p), -in_modes.stiffness, -in_modes.damping;
+  const int             p = static_cast<int>(modes.omega.size());
+  Eigen::MatrixXd       state(2 * p, 2 * p);
+  const Eigen::VectorXd weight = (modes.omega.array() > 0.).select(modes.omega, 1.);
+  state << Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd(weight.asDiagonal()),
+      -in_modes.stiffness * weight.cwiseInverse().asDiagonal(), -in_modes.damping;
   const auto             solver  = solve_state(state, modes.omega);
   const Eigen::VectorXcd s       = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
@@ -68,7 +71,7 @@ void add_damping(const DenseModes &modes, const InModes &in_modes, std::vector<M
     {
       if (taken[k] || s[k].imag() <= 1e-9 * std::abs(s[k]))
         continue;
-      const auto   y   = vectors.col(k).head(p);
+      const auto   y   = vectors.col(k).tail(p); // y' = s y
       const double own = std::norm(y[static_cast<Eigen::Index>(j)]) / y.squaredNorm();
       if (const double own_fit = fit(result[j], s[k], own); own_fit > best_fit)
       {

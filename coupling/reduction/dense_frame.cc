@@ -2,6 +2,7 @@
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/reduction/mode_ratios.h"
 
 #include <Eigen/Cholesky>
 
@@ -108,10 +109,9 @@ ReducedFrame dense_frame(const fem::FrameMatrices &frame)
 
   require_semidefinite_stiffness(C);
   const DenseModes modes = dense_modes(C, M);
-  const MatrixXd   Z     = (M * modes.V)(order, Eigen::all);
-  dense.B += Z * frame.modal_damping_ratio.modal_dampers(modes.omega).asDiagonal() * Z.transpose();
-  dense.frequencies_hz  = modes.omega / (2. * M_PI);
-  dense.frequency_error = VectorXd::Zero(modes.omega.size());
+  dense.frequencies_hz   = modes.omega / (2. * M_PI);
+  dense.frequency_error  = VectorXd::Zero(modes.omega.size());
+  add_modal_damping(dense, frame.modal_damping_ratio);
   return dense;
 }
 

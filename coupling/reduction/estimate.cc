@@ -19,22 +19,21 @@ using Eigen::VectorXd;
 RefinedModes exact_modes(const RefinedModes &ritz, Eigen::Index known)
 {
   const auto kept = std::min(known, ritz.omega.size());
-  return {ritz.n_rigid, ritz.omega.head(kept), ritz.P.leftCols(kept)};
+  return {ritz.n_rigid, ritz.omega.head(kept)};
 }
 
 } // namespace
 
-ReductionEstimate estimate(const ReductionSpace &space, const ReducedMatrices &star, bool completed,
-                           const ReductionOptions &options)
+ReductionEstimate estimate(const ReductionSpace &space, const ReducedMatrices &star, const ReductionOptions &options)
 {
-  const int    n1 = space.basis.n1(), m = space.basis.m();
-  RefinedModes damped = completed || space.exact ? ritz_modes(star, space.refined.n_rigid) : space.refined;
+  const int n1 = space.basis.n1(), m = space.basis.m();
   if (!space.exact)
-    return {frequency_estimate(star, n1, m, space.refined), std::move(damped), space.limit};
-  const RefinedModes exact = exact_modes(damped, space.exact->size());
+    return {frequency_estimate(star, n1, m, space.refined), space.limit};
+  const RefinedModes own   = ritz_modes(star, space.refined.n_rigid);
+  const RefinedModes exact = exact_modes(own, space.exact->size());
   const auto         kept  = exact.omega.size();
-  const double       limit = kept > 0 ? std::min((*space.exact)[kept - 1], highest_of_interest(options, damped)) : 0.;
-  return {frequency_estimate(star, n1, m, exact), std::move(damped), limit};
+  const double       limit = kept > 0 ? std::min((*space.exact)[kept - 1], highest_of_interest(options, own)) : 0.;
+  return {frequency_estimate(star, n1, m, exact), limit};
 }
 
 StaticRemainder static_remainder(const MatrixXd &deflection, const ReductionBasis &basis, const MatrixXd &load)

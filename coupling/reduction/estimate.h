@@ -12,18 +12,15 @@ namespace gestell::coupling
 struct ReductionEstimate
 {
   FrequencyEstimate frequencies; ///< of the model, and their errors
-  RefinedModes      damped;      ///< modes that a modal damping ratio refers to
   double            limit;       ///< [rad/s] up to which the model should be valid
 };
 
 /**
  * Error of the frequencies from the modes of the frame that the method knows, refined or exact.
  *
- * @param star       matrices of the whole basis.
- * @param completed  whether attachment modes were appended: damping then refers to the model's own modes.
+ * @param star  matrices of the whole basis.
  */
-ReductionEstimate estimate(const ReductionSpace &space, const ReducedMatrices &star, bool completed,
-                           const ReductionOptions &options);
+ReductionEstimate estimate(const ReductionSpace &space, const ReducedMatrices &star, const ReductionOptions &options);
 
 /// Part of the static deflection of q2 under loads f [n x k] that the modes miss:  C22^-1 f2 - V22 diag(1/omega_0^2)
 /// V22^T f2.

@@ -1,6 +1,7 @@
 #include "coupling/reduction/modal_damping.h"
 
 #include "coupling/eigensolvers/sparse_modes.h"
+#include "coupling/reduction/mode_ratios.h"
 #include "coupling/reduction/shapes/fixed_interface_modes.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 #include "fem/assembly/rigid_motions.h"
@@ -11,6 +12,21 @@
 
 namespace gestell::coupling
 {
+
+namespace
+{
+
+/// Of the modes V [n x p] of a frame, ascending.
+fem::ModalDamping modal_operator(fem::FrameMatrices &frame, const Eigen::MatrixXd &V, const Eigen::VectorXd &omega)
+{
+  ModesAtPoints modes{omega, frame.picture.points};
+  if (frame.picture.displacement.rows() > 0)
+    modes.shapes = frame.picture.displacement * V;
+  return {symmetric_product(frame.M, V),
+          matched(frame.modal_damping_ratio, modes, frame.statements).modal_dampers(omega)};
+}
+
+} // namespace
 
 void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &progress, const std::string &factor)
 {
@@ -24,8 +40,7 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
       progress("modes of the floating frame", -1.);
     const DenseModes modes   = sparse_modes(frame.C, frame.M, std::min(n, n_modes + n_free));
     const auto       elastic = std::min<Eigen::Index>(n_modes, modes.omega.size() - n_free);
-    frame.modal_damping.Z    = symmetric_product(frame.M, modes.V.rightCols(elastic));
-    frame.modal_damping.d    = frame.modal_damping_ratio.modal_dampers(modes.omega.tail(elastic));
+    frame.modal_damping      = modal_operator(frame, modes.V.rightCols(elastic), modes.omega.tail(elastic));
     return;
   }
   if (progress)
@@ -35,8 +50,7 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
     progress("modes of the supported frame", -1.);
   FixedInterfaceModes fixed(free_frame, frame, {});
   const LowestModes   modes = fixed.find_all(n_modes);
-  frame.modal_damping.Z     = symmetric_product(frame.M, modes.V);
-  frame.modal_damping.d     = frame.modal_damping_ratio.modal_dampers(modes.omega);
+  frame.modal_damping       = modal_operator(frame, modes.V, modes.omega);
 }
 
 } // namespace gestell::coupling

@@ -45,14 +45,6 @@ void add_stress(ReducedStress &reduced, const fem::StressRecovery &stress, const
   add(fem::StressOf::deviation, reduced.deviation);
 }
 
-/// B* += P diag(2 zeta omega) P^T for as many refined modes as the model has coordinates.
-void damp(MatrixXd &B, const RefinedModes &refined, const fem::ModalRatios &zeta)
-{
-  const auto n = B.rows(), p = std::min<Eigen::Index>(refined.omega.size(), n);
-  const auto P = refined.P.topLeftCorner(n, p);
-  B += P * zeta.modal_dampers(refined.omega.head(p)).asDiagonal() * P.transpose();
-}
-
 void project_outputs(ReducedFrame &reduced, const fem::FrameMatrices &frame, const MatrixXd &T, const MatrixXd &beyond)
 {
   for (const auto &output : frame.outputs)
@@ -98,14 +90,12 @@ void free_rigid_motions(MatrixXd &C, const fem::FrameMatrices &frame, const std:
 } // namespace
 
 ReducedFrame project(const fem::FrameMatrices &frame, const ReductionBasis &basis, ReducedMatrices star,
-                     const RefinedModes &damped, const MatrixXd &load, const MatrixXd &beyond)
+                     const MatrixXd &load, const MatrixXd &beyond)
 {
   ReducedFrame reduced;
-  reduced.M = std::move(star.M);
-  reduced.B = std::move(star.B);
-  reduced.C = std::move(star.C);
-  if (frame.modal_damping_ratio.any())
-    damp(reduced.B, damped, frame.modal_damping_ratio);
+  reduced.M                 = std::move(star.M);
+  reduced.B                 = std::move(star.B);
+  reduced.C                 = std::move(star.C);
   reduced.translations_load = MatrixXd::Zero(basis.T.cols(), 3);
   if (load.cols() > 0)
     reduced.translations_load = basis.T.transpose() * load;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "coupling/frame/reduced_frame.h"
-#include "coupling/reduction/estimates/refined_modes.h"
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
 #include "coupling/reduction/shapes/reduction_basis.h"
 #include "fem/values/frame_matrices.h"
@@ -15,18 +14,16 @@ namespace gestell::coupling
  * The frame in the coordinates p of q = T p: M*, B*, C*, loads T^T f, and the rows of outputs, pictures and stresses,
  * each multiplied by T.
  *
- * A modal damping ratio zeta refers to the modes of the supported frame with free interface and enters as
- * B* = T^T B T + P diag(2 zeta omega) P^T,  P = T^T M Phi: as in add_modal_damping() for a full frame.
+ * Modal damping is added to the result: add_modal_damping().
  *
  * @param star    of the basis.
- * @param damped  Phi, the modes with damping ratios.
  * @param load    [n x 3] of a unit acceleration, or [n x 0].
  * @param beyond  [n x 3] deflection under it that is missing in the basis, added to outputs and stresses directly.
  *
- * Source: (5.5.3/19 to 21); docs/theory/reduction.md (5) to (10).
+ * Source: (5.5.3/19 to 21); docs/theory/reduction.md (5) to (7).
  */
 ReducedFrame project(const fem::FrameMatrices &frame, const ReductionBasis &basis, ReducedMatrices star,
-                     const RefinedModes &damped, const Eigen::MatrixXd &load, const Eigen::MatrixXd &beyond);
+                     const Eigen::MatrixXd &load, const Eigen::MatrixXd &beyond);
 
 /// Uses the number of rigid-body modes of the full frame: with a single interface all of C*_11 is rounding, which is
 /// removed along these modes; their frequencies are zero.

@@ -1,6 +1,7 @@
 #include "coupling/reduction/reduce_frame.h"
 
 #include "coupling/reduction/estimate.h"
+#include "coupling/reduction/mode_ratios.h"
 #include "coupling/reduction/projection.h"
 #include "coupling/reduction/reductions.h"
 #include "coupling/reduction/shapes/attachment_modes.h"
@@ -98,18 +99,17 @@ ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionO
   require_valid(frame, frame.interface_coordinates(), options);
   BasisFunction   &basis_of = basis_function(options);
   InterfaceStatics statics(frame, options, progress, given);
-  ReductionSpace   space     = basis_of(frame, options, statics);
-  const int        n_fixed   = space.basis.m();
-  const bool       completed = complete(space, statics);
-  if (completed || space.star.M.size() == 0)
+  ReductionSpace   space   = basis_of(frame, options, statics);
+  const int        n_fixed = space.basis.m();
+  if (complete(space, statics) || space.star.M.size() == 0)
   {
     statics.begin("reduced matrices");
     space.star = reduced_matrices(space.basis, frame.B);
   }
-  auto [frequencies, damped, limit] = estimate(space, space.star, completed, options);
-  StaticRemainder remainder         = static_remainder(statics.response.loads, space.basis, statics.load);
+  auto [frequencies, limit] = estimate(space, space.star, options);
+  StaticRemainder remainder = static_remainder(statics.response.loads, space.basis, statics.load);
 
-  ReducedFrame reduced = project(frame, space.basis, std::move(space.star), damped, statics.load, remainder.deflection);
+  ReducedFrame reduced       = project(frame, space.basis, std::move(space.star), statics.load, remainder.deflection);
   reduced.n_fixed_modes      = n_fixed;
   reduced.left_out           = modes_left_out(statics.response, reduced, n_fixed);
   reduced.frequencies_hz     = frequencies.omega / two_pi;
@@ -118,6 +118,7 @@ ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionO
   reduced.static_residual    = remainder.relative;
   name_free_motions(reduced, frame, statics.held, space.basis.q1);
   add_texts(reduced, frame, space);
+  add_modal_damping(reduced, frame.modal_damping_ratio);
   return {std::move(reduced), std::move(space.basis), std::move(remainder.deflection), options.factor};
 }
 

@@ -40,12 +40,23 @@ private:
 
 void add_ratios(Ingredients &recipe, const fem::ModalRatios &value)
 {
-  const auto &[constant, by_mode, by_frequency] = value;
+  const auto &[constant, named, by_frequency] = value;
   recipe.add("damping", constant);
-  for (std::size_t i = 0; i < by_mode.size(); ++i)
-    recipe.add("damping of mode " + std::to_string(i + 1), by_mode[i]);
   for (const auto &[frequency, zeta] : by_frequency)
     recipe.add("damping at " + exact_text(frequency), zeta);
+  for (const fem::NamedRatio &one : named)
+  {
+    const auto &[ratio, mode, from, to, points, shape, place] = one; // place: for messages
+    const std::string name =
+        "damping of mode " + std::to_string(mode) + ", " + exact_text(from) + " to " + exact_text(to);
+    recipe.add(name, ratio);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      recipe.add(name + ", point", Eigen::Matrix<double, 3, 1>(points[i].data()));
+      recipe.add(name + ", real", Eigen::Matrix<double, 3, 1>(shape.segment(3 * Eigen::Index(i), 3).real()));
+      recipe.add(name + ", imaginary", Eigen::Matrix<double, 3, 1>(shape.segment(3 * Eigen::Index(i), 3).imag()));
+    }
+  }
 }
 
 void add_bolts(Ingredients &recipe, const BoltedJoint &value)

@@ -29,18 +29,23 @@ void write_list(std::ostringstream &out, const Values &values, const Write &writ
 bool ModalRatios::any() const
 {
   const auto positive = [](double zeta) { return zeta > 0.; };
-  return constant > 0. || std::any_of(by_mode.begin(), by_mode.end(), positive) ||
-         std::any_of(by_frequency.begin(), by_frequency.end(), [&](const auto &row) { return positive(row.second); });
+  return constant > 0. ||
+         std::any_of(by_frequency.begin(), by_frequency.end(), [&](const auto &row) { return positive(row.second); }) ||
+         std::any_of(named.begin(), named.end(), [&](const NamedRatio &one) { return positive(one.ratio); });
 }
 
 double ModalRatios::at(int mode, double omega) const
 {
-  if (!by_mode.empty())
-    return by_mode[std::min<std::size_t>(mode, by_mode.size() - 1)];
+  const double hz   = omega / two_pi;
+  const auto   find = [&](const auto &names) { return std::find_if(named.begin(), named.end(), names); };
+  auto         own  = find([&](const NamedRatio &one) { return one.mode == mode; });
+  if (own == named.end())
+    own = find([&](const NamedRatio &one) { return one.mode < 0 && one.from <= hz && hz < one.to; });
+  if (own != named.end())
+    return own->ratio;
   if (by_frequency.empty())
     return constant;
-  const double hz = omega / two_pi;
-  const auto   above =
+  const auto above =
       std::find_if(by_frequency.begin(), by_frequency.end(), [&](const auto &row) { return row.first >= hz; });
   if (above == by_frequency.begin())
     return above->second;
@@ -64,12 +69,22 @@ std::string ModalRatios::text() const
 {
   std::ostringstream out;
   out.precision(4);
-  if (!by_mode.empty())
+  if (!named.empty())
   {
-    write_list(out, by_mode, [&](double zeta) { out << 100. * zeta << " %"; });
-    out << " of critical in the elastic modes of the frame one by one, the last in all above";
+    write_list(out, named,
+               [&](const NamedRatio &one)
+               {
+                 out << 100. * one.ratio << " % ";
+                 if (one.mode >= 0)
+                   out << "in mode " << one.mode + 1;
+                 else if (one.is_measured())
+                   out << "measured at " << one.from << " Hz";
+                 else
+                   out << "from " << one.from << " to " << one.to << " Hz";
+               });
+    out << "; of the others ";
   }
-  else if (!by_frequency.empty())
+  if (!by_frequency.empty())
   {
     write_list(out, by_frequency, [&](const auto &row) { out << 100. * row.second << " % at " << row.first << " Hz"; });
     out << " of critical, linear between, in the modes of the frame";

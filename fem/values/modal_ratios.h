@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,12 +10,26 @@
 namespace gestell::fem
 {
 
+/// A damping ratio of one elastic mode by its number, of all modes in an interval of frequencies, or of a measured
+/// mode, whose counterpart in the frame is found by frequency and shape (coupling::matched()).
+struct NamedRatio
+{
+  double                             ratio = 0.;
+  int                                mode  = -1;         ///< from 0; -1: not by number
+  double                             from = 0., to = 0.; ///< [Hz] from <= f < to; equal: of a measured mode
+  std::vector<std::array<double, 3>> points{};           ///< [m] of a measured shape, or none
+  Eigen::VectorXcd                   shape{};            ///< [3 points] of it; 0: not measured
+  std::string                        place{};            ///< for messages
+
+  bool is_measured() const { return mode < 0 && from == to; }
+};
+
 /**
  * Damping ratios zeta, the shares of critical damping, of the elastic modes of a supported frame: a term 2 zeta omega
  * in each modal equation.
  *
- * Either one ratio for all modes, or ratios of the modes 1, 2, ... (the last one also for all higher modes), or a table
- * over the frequency, linear between its rows and constant beyond them.
+ * One ratio for all modes, or a table over the frequency, linear between its rows and constant beyond them; in place of
+ * these the named ones, a number before an interval.
  */
 struct ModalRatios
 {
@@ -22,7 +37,7 @@ struct ModalRatios
   ModalRatios(double zeta) : constant(zeta) {} // NOLINT: a number is the same ratio for all modes
 
   double                                 constant = 0.;
-  std::vector<double>                    by_mode;
+  std::vector<NamedRatio>                named;        ///< measured ones count only when matched()
   std::vector<std::pair<double, double>> by_frequency; ///< [Hz], zeta; frequencies ascending
 
   bool any() const; ///< whether some mode is damped

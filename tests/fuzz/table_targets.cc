@@ -1,9 +1,9 @@
 #include "tests/fuzz/target.h"
 
 #include "apps/analysis/frf/measured_response.h"
-#include "apps/analysis/frf/universal_file.h"
 #include "apps/cli/chart/reference_file.h"
 #include "apps/scene/file/csv_file.h"
+#include "apps/scene/file/universal_file.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "apps/analysis/frf/measured_response.h"
 
-#include "apps/analysis/frf/universal_file.h"
 #include "apps/scene/file/csv_file.h"
+#include "apps/scene/file/universal_file.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "fem/values/named_file.h"
 #include "fem/values/nearest_name.h"

@@ -63,20 +63,17 @@ RefinedModes refined_modes(const ReductionBasis &basis, const ReducedMatrices &s
     y.topRows(n1) -= modes.rigid * (inertia.leftCols(n1) * modes.rigid).ldlt().solve(inertia * y);
   }
 
-  const MatrixXd   P       = TM * y; // T^T M Y
-  const MatrixXd   YCY     = P.transpose() * Phi_e;
-  const MatrixXd   YMY     = y.transpose() * gram * y;
-  const DenseModes refined = dense_modes(0.5 * (YCY + YCY.transpose()), 0.5 * (YMY + YMY.transpose()));
-  modes.omega              = refined.omega;
-  modes.P                  = P * refined.V;
+  const MatrixXd P   = TM * y; // T^T M Y
+  const MatrixXd YCY = P.transpose() * Phi_e;
+  const MatrixXd YMY = y.transpose() * gram * y;
+  modes.omega        = dense_modes(0.5 * (YCY + YCY.transpose()), 0.5 * (YMY + YMY.transpose())).omega;
   return modes;
 }
 
 RefinedModes ritz_modes(const ReducedMatrices &star, int n_rigid)
 {
-  const DenseModes ritz    = dense_modes(star.C, star.M, cancelled_by_reduction, n_rigid);
-  const auto       elastic = ritz.omega.size() - n_rigid;
-  return {n_rigid, ritz.omega.tail(elastic), star.M * ritz.V.rightCols(elastic)};
+  const VectorXd omega = dense_modes(star.C, star.M, cancelled_by_reduction, n_rigid).omega;
+  return {n_rigid, omega.tail(omega.size() - n_rigid)};
 }
 
 FrequencyEstimate frequency_estimate(const ReducedMatrices &star, int n1, int m, const RefinedModes &refined)

@@ -30,7 +30,6 @@ struct RefinedModes
 {
   int             n_rigid = 0;
   Eigen::VectorXd omega;   // [p] elastic modes, refined, ascending [rad/s]
-  Eigen::MatrixXd P;       // [(n1 + m) x p]  T^T M Phi: projection of the refined modes to the reduced model
   Eigen::MatrixXd rigid{}; // [n1 x n_rigid] rigid-body modes on q1; none if only their number is known
 };
 
@@ -38,7 +37,7 @@ RefinedModes refined_modes(const ReductionBasis &basis, const ReducedMatrices &s
                            const ResidualFlexibility &response, const fem::FrameMatrices &frame);
 
 /// The elastic modes of the reduced model itself, after n_rigid rigid-body modes: for models whose shapes are not
-/// fixed-interface modes; for damping and as reference of its frequencies.
+/// fixed-interface modes; as reference of its frequencies.
 RefinedModes ritz_modes(const ReducedMatrices &star, int n_rigid);
 
 /// Relative excess of the frequencies of the reduced model with the first m fixed-interface modes over the refined

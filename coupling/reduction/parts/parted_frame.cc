@@ -269,13 +269,11 @@ std::string statement_of(const DenseModes &modes, const Joined &joined, const Re
 ReducedModel completed(ReducedModel reduced, const fem::FrameMatrices &frame, Recovered recovered)
 {
   ReductionBasis basis;
-  basis.q1     = frame.interface_coordinates();
-  basis.T      = std::move(recovered.T);
-  basis.omega0 = reduced.basis.omega0;
-  RefinedModes none; // modal damping is in B* already
-  none.P.resize(basis.T.cols(), 0);
+  basis.q1            = frame.interface_coordinates();
+  basis.T             = std::move(recovered.T);
+  basis.omega0        = reduced.basis.omega0;
   ReducedFrame &known = reduced.frame;
-  ReducedFrame  whole = project(frame, basis, {std::move(known.M), std::move(known.B), std::move(known.C)}, none,
+  ReducedFrame  whole = project(frame, basis, {std::move(known.M), std::move(known.B), std::move(known.C)},
                                 frame.acceleration_load, recovered.beyond);
   known.M.swap(whole.M);
   known.B.swap(whole.B);

@@ -72,9 +72,79 @@ TEST(SceneFrame, DampingByModeAndByFrequencyIsKeptAsItIsGiven)
 {
   const auto ratios = [&](const std::string &ratio)
   { return scene_of(cad_scene("ratio = 0.02", ratio)).frame.geometry.modal_damping_ratio; };
-  EXPECT_EQ(ratios("ratio = [0.01, \"2 %\"]").by_mode, (std::vector<double>{0.01, 0.02}));
+  const auto list = ratios("ratio = [0.01, \"2 %\"]"); // the last one for all above
+  ASSERT_EQ(list.named.size(), 1u);
+  EXPECT_EQ(list.at(0, 1.), 0.01);
+  EXPECT_EQ(list.at(1, 1.), 0.02);
+  EXPECT_EQ(list.at(7, 1.), 0.02);
   const auto table = ratios("ratio = [[\"20 Hz\", 0.01], [\"1 kHz\", 0.03]]").by_frequency;
   EXPECT_EQ(table, (std::vector<std::pair<double, double>>{{20., 0.01}, {1000., 0.03}}));
+
+  const auto both =
+      ratios("ratio = 0.02, modes = [{ mode = 3, ratio = \"1.2 %\" }, { from = 50, to = \"1 kHz\", ratio = 0.03 }]");
+  EXPECT_EQ(both.constant, 0.02);
+  ASSERT_EQ(both.named.size(), 2u);
+  EXPECT_EQ(both.named[0].mode, 2);
+  EXPECT_EQ(both.named[0].ratio, 0.012);
+  EXPECT_EQ(both.named[1].to, 1000.);
+  EXPECT_FALSE(both.named[1].is_measured());
+}
+
+/// The measured modes of a file beside the scene.
+std::vector<fem::NamedRatio> measured_in(const std::string &name, const std::string &text)
+{
+  const SceneFolder folder;
+  folder.write(name, text);
+  return scene_of(cad_scene("ratio = 0.02", "modes = [{ file = '" + folder.path(name) + "' }]"))
+      .frame.geometry.modal_damping_ratio.named;
+}
+
+TEST(SceneFrame, MeasuredModesComeFromTablesAndUniversalFiles)
+{
+  const auto table = measured_in("m.csv", "ratio;frequency [Hz];mode\n0.01;20;\n0.02;;4\n");
+  ASSERT_EQ(table.size(), 2u);
+  EXPECT_TRUE(table[0].is_measured());
+  EXPECT_EQ(table[0].from, 20.);
+  EXPECT_EQ(table[1].mode, 3);
+
+  const std::string nodes = "    -1\n  2411\n         7         1         1        11\n   1.0D+00   2.0D+00   3.0D+00\n"
+                            "         9         1         1        11\n   4.0D+00   5.0D+00   6.0D+00\n    -1\n";
+  const std::string head  = "    -1\n    55\nmode\nNONE\nNONE\nNONE\nNONE\n";
+  const auto        normal = measured_in("m.uff", nodes + head +
+                                                      "         1         2         2         8         2         3\n"
+                                                             "         2         4         1         1\n"
+                                                             "  4.12500E+01  1.00000E+00  1.20000E-02  0.00000E+00\n"
+                                                             "         9\n  1.00000E+00-2.00000E+00  0.00000E+00\n    -1\n");
+  ASSERT_EQ(normal.size(), 1u);
+  EXPECT_EQ(normal[0].from, 41.25);
+  EXPECT_EQ(normal[0].ratio, 0.012);
+  EXPECT_EQ(normal[0].points, (std::vector<std::array<double, 3>>{{4., 5., 6.}}));
+  EXPECT_EQ(normal[0].shape[1], std::complex<double>(-2.));
+  const auto complex =
+      measured_in("c.uff", nodes + head +
+                               "         1         3         2         8         5         3\n"
+                               "         2         6         1         1\n"
+                               " -3.00000E+00  4.00000E+00  0.00000E+00  0.00000E+00  0.0E+00  0.0E+00\n"
+                               "         7\n  1.0E+00  2.0E+00  0.0E+00  0.0E+00  3.0E+00 -1.0E+00\n    -1\n");
+  EXPECT_NEAR(complex.at(0).from, 5. / (2. * M_PI), 1e-15); // |s| = 5, zeta = 3/5
+  EXPECT_NEAR(complex.at(0).ratio, 0.6, 1e-15);
+  EXPECT_EQ(complex.at(0).shape[2], std::complex<double>(3., -1.));
+
+  tests::expect_refusal([] { measured_in("bad.csv", "frequency [Hz],damping\n20,0.01\n"); },
+                        "bad.csv:1: needs the columns");
+  tests::expect_refusal([] { measured_in("much.csv", "frequency [Hz],ratio\n20,1.5\n"); },
+                        "much.csv:2: the damping ratio is 1.5");
+  tests::expect_refusal([] { measured_in("none.csv", "frequency [Hz],ratio\n"); }, "holds no modes");
+  tests::expect_refusal([&] { measured_in("none.uff", nodes); }, "none.uff: holds no modes");
+  tests::expect_refusal(
+      [&]
+      {
+        measured_in("node.uff", nodes + head +
+                                    "         1         2         2         8         2         3\n"
+                                    "         2         4         1         1\n  4.1E+01  1.0E+00  1.2E-02  0.0E+00\n"
+                                    "         8\n  1.0E+00  2.0E+00  0.0E+00\n    -1\n");
+      },
+      "node 8 has no coordinates");
 }
 
 TEST(SceneFrame, AMaterialNoSolidHasIsTakenWithItsUnitAndGivesAWarning)
@@ -160,6 +230,19 @@ TEST(SceneFrame, MistakesAreReportedWithPlaceAndRemedy)
        "length"},
       {"cylinder =", "cylindre =", "scene.toml:7: frame.surface.\"bearing left\"", "'cylinder'"},
       {"ratio = 0.02", "ratio = 2", "scene.toml:5: frame.damping.ratio", "0.01"},
+      {"ratio = 0.02", "modes = []", "scene.toml:5: frame.damping.modes", "is empty"},
+      {"ratio = 0.02", "modes = [{ mode = 0, ratio = 0.01 }]", "frame.damping.modes",
+       "the first elastic mode of the frame is 1"},
+      {"ratio = 0.02", "modes = [{ mode = 1, ratio = 1 }]", "frame.damping.modes", "leaves no vibration"},
+      {"ratio = 0.02", "modes = [{ mode = 1, ratio = -0.1 }]", "frame.damping.modes", "zero or more"},
+      {"ratio = 0.02", "modes = [{ mode = 1 }]", "frame.damping.modes", "ratio"},
+      {"ratio = 0.02", "modes = [{ ratio = 0.1 }]", "frame.damping.modes", "either `mode`"},
+      {"ratio = 0.02", "modes = [{ mode = 1, ratio = 0.1 }, { mode = 1, ratio = 0.2 }]", "frame.damping.modes",
+       "a second ratio"},
+      {"ratio = 0.02", "modes = [{ from = 9, to = 9, ratio = 0.1 }]", "frame.damping.modes", "above `from`"},
+      {"ratio = 0.02", "modes = [{ from = 10, to = 30, ratio = 0.1 }, { from = 20, to = 40, ratio = 0.1 }]",
+       "frame.damping.modes", "from 20 to 30 Hz that another row covers"},
+      {"ratio = 0.02", "modes = [{ file = \"none.csv\" }]", "frame.damping.modes", "there is no file"},
       {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }]", "damping.rayleigh", "needs two"},
       {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }, { frequency = 40, ratio = 0.09 }]",
        "damping.rayleigh", "amplify"}};

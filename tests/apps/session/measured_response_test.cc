@@ -1,7 +1,7 @@
 // Measured curves: tables and universal files, and what is wrong with them.
 
 #include "apps/analysis/frf/measured_response.h"
-#include "apps/analysis/frf/universal_file.h"
+#include "apps/scene/file/universal_file.h"
 #include "fem/values/two_pi.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"

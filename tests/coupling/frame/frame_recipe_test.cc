@@ -103,8 +103,8 @@ private:
 fem::ModalRatios some_ratios()
 {
   fem::ModalRatios ratios = 0.01;
-  ratios.by_mode          = {0.02};
   ratios.by_frequency     = {{10., 0.03}};
+  ratios.named            = {{0.04, 2, 5., 6., {}, Eigen::VectorXcd::Ones(3), "there"}};
   return ratios;
 }
 
@@ -174,8 +174,7 @@ TEST_F(ContentKey, HasEveryValueAsAnIngredientOfItsOwn)
   recipe.expect("materials.1.with.rho", [](Specification &f) { f.materials[0].second.rho = 7100.; });
   recipe.expect("materials.1.with.name", [](Specification &f) { f.materials[0].second.name = "GJL"; });
   recipe.expect("damping.ratio", [](Specification &f) { f.modal_damping_ratio = 0.02; });
-  recipe.expect("damping.ratio.by_mode", [](Specification &f) { f.modal_damping_ratio.by_mode.push_back(0.01); });
-  recipe.expect("damping.ratio.by_mode.1", [](Specification &f) { f.modal_damping_ratio.by_mode = {0.01}; });
+  recipe.expect("damping.ratio.named", [](Specification &f) { f.modal_damping_ratio.named.resize(2); });
   recipe.expect("damping.ratio.by_frequency",
                 [](Specification &f) {
                   f.modal_damping_ratio.by_frequency.push_back({20., 0.03});
@@ -184,6 +183,15 @@ TEST_F(ContentKey, HasEveryValueAsAnIngredientOfItsOwn)
                 [](Specification &f) { f.modal_damping_ratio.by_frequency[0].first = 11.; });
   recipe.expect("damping.ratio.by_frequency.1.with",
                 [](Specification &f) { f.modal_damping_ratio.by_frequency[0].second = 0.04; });
+  recipe.expect("damping.ratio.named.1", [](Specification &f) { f.modal_damping_ratio.named[0].ratio = 0.05; });
+  recipe.expect("damping.ratio.named.1.mode", [](Specification &f) { f.modal_damping_ratio.named[0].mode = 3; });
+  recipe.expect("damping.ratio.named.1.from", [](Specification &f) { f.modal_damping_ratio.named[0].from = 4.; });
+  recipe.expect("damping.ratio.named.1.to", [](Specification &f) { f.modal_damping_ratio.named[0].to = 7.; });
+  recipe.expect("damping.ratio.named.1.points",
+                [](Specification &f) { f.modal_damping_ratio.named[0].points.resize(1); });
+  recipe.expect("damping.ratio.named.1.shape", [](Specification &f) { f.modal_damping_ratio.named[0].shape[1] = 2.; });
+  recipe.expect("damping.ratio.named.1.phase",
+                [](Specification &f) { f.modal_damping_ratio.named[0].shape[1].imag(2.); });
   recipe.expect("damping.rayleigh mass", [](Specification &f) { f.rayleigh_mass = 2.; });
   recipe.expect("damping.rayleigh stiffness", [](Specification &f) { f.rayleigh_stiffness = 1e-5; });
   const auto surface = [&](const std::string &name, auto change)
@@ -271,8 +279,7 @@ TEST_F(ContentKey, OfMatricesHasEveryValueAsAnIngredientOfItsOwn)
   recipe.expect("damping", [](Matrices &f) { f.B.coeffRef(0, 0) = 2.; });
   recipe.expect("stiffness", [](Matrices &f) { f.C.coeffRef(0, 0) = 2.; });
   recipe.expect("damping.ratio", [](Matrices &f) { f.modal_damping_ratio = 0.02; });
-  recipe.expect("damping.ratio.by_mode", [](Matrices &f) { f.modal_damping_ratio.by_mode.push_back(0.01); });
-  recipe.expect("damping.ratio.by_mode.1", [](Matrices &f) { f.modal_damping_ratio.by_mode = {0.01}; });
+  recipe.expect("damping.ratio.named", [](Matrices &f) { f.modal_damping_ratio.named.resize(2); });
   recipe.expect("damping.ratio.by_frequency",
                 [](Matrices &f) {
                   f.modal_damping_ratio.by_frequency.push_back({20., 0.03});
@@ -280,6 +287,13 @@ TEST_F(ContentKey, OfMatricesHasEveryValueAsAnIngredientOfItsOwn)
   recipe.expect("damping.ratio.by_frequency.1", [](Matrices &f) { f.modal_damping_ratio.by_frequency[0].first = 11.; });
   recipe.expect("damping.ratio.by_frequency.1.with",
                 [](Matrices &f) { f.modal_damping_ratio.by_frequency[0].second = 0.04; });
+  recipe.expect("damping.ratio.named.1", [](Matrices &f) { f.modal_damping_ratio.named[0].ratio = 0.05; });
+  recipe.expect("damping.ratio.named.1.mode", [](Matrices &f) { f.modal_damping_ratio.named[0].mode = 3; });
+  recipe.expect("damping.ratio.named.1.from", [](Matrices &f) { f.modal_damping_ratio.named[0].from = 4.; });
+  recipe.expect("damping.ratio.named.1.to", [](Matrices &f) { f.modal_damping_ratio.named[0].to = 7.; });
+  recipe.expect("damping.ratio.named.1.points", [](Matrices &f) { f.modal_damping_ratio.named[0].points.resize(1); });
+  recipe.expect("damping.ratio.named.1.shape", [](Matrices &f) { f.modal_damping_ratio.named[0].shape[1] = 2.; });
+  recipe.expect("damping.ratio.named.1.phase", [](Matrices &f) { f.modal_damping_ratio.named[0].shape[1].imag(2.); });
   recipe.expect("damping.Z", [](Matrices &f) { f.modal_damping.Z = Eigen::MatrixXd::Ones(3, 1); });
   recipe.expect("damping.d", [](Matrices &f) { f.modal_damping.d = Eigen::VectorXd::Ones(1); });
   recipe.expect("interface", [](Matrices &f) { f.interfaces.push_back(f.interfaces[0]); });

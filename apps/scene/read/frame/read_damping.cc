@@ -1,8 +1,13 @@
 #include "apps/scene/read/frame/read_damping.h"
 
+#include "apps/scene/file/csv_file.h"
 #include "apps/scene/file/expected_values.h"
+#include "apps/scene/file/universal_file.h"
+#include "fem/values/number_text.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace gestell::apps
 {
@@ -19,9 +24,128 @@ void check_ratio(const SceneTable &table, double zeta)
     table.warn("ratio", words + ", percent are written \"0.5 %\"");
 }
 
+/// A measured mode, with the place of its row in the file.
+void check_measured(const fem::NamedRatio &mode)
+{
+  if (!(mode.ratio >= 0.) || mode.ratio >= 1.)
+    throw std::invalid_argument(mode.place + ": the damping ratio is " + short_text(mode.ratio) +
+                                "; it needs 0 or more, and less than 1 (a share: 0.01, not percent)");
+  if (mode.mode < 0 && !(mode.from > 0.))
+    throw std::invalid_argument(mode.place + ": the frequency is " + short_text(mode.from) +
+                                " Hz; a measured mode needs one above zero");
+}
+
+/// Columns frequency, ratio, and perhaps mode, the number of the frame's.
+std::vector<fem::NamedRatio> measured_in_table(const std::string &name)
+{
+  const CsvFile file   = read_csv(name);
+  const auto    column = [&](const std::string &word)
+  {
+    const auto found = std::find_if(file.head.begin(), file.head.end(),
+                                    [&](const std::string &cell) { return cell.substr(0, word.size()) == word; });
+    return found == file.head.end() ? -1 : int(found - file.head.begin());
+  };
+  const int hz = column("frequency"), ratio = column("ratio"), number = column("mode");
+  if (ratio < 0 || (hz < 0 && number < 0))
+    throw std::invalid_argument(file.place(file.head_number) +
+                                "needs the columns \"ratio\" and \"frequency [Hz]\" or \"mode\"");
+  std::vector<fem::NamedRatio> modes;
+  for (const CsvFile::Line &line : file.lines)
+  {
+    fem::NamedRatio mode;
+    mode.place = name + ":" + std::to_string(line.number);
+    mode.ratio = file.number(line, std::size_t(ratio));
+    if (number >= 0 && !line.cells[std::size_t(number)].empty())
+      mode.mode = file.integer(line, std::size_t(number)) - 1;
+    else if (hz >= 0)
+      mode.from = mode.to = file.number(line, std::size_t(hz));
+    if (number >= 0 && mode.mode < 0 && !(mode.from > 0.))
+      throw std::invalid_argument(mode.place + ": modes are numbered from 1");
+    modes.push_back(std::move(mode));
+  }
+  return modes;
+}
+
+std::vector<fem::NamedRatio> measured_in_universal_file(const std::string &name)
+{
+  std::vector<fem::NamedRatio> modes;
+  for (UniversalMode &one : read_universal_modes(name))
+  {
+    fem::NamedRatio mode;
+    mode.place = name + ":" + std::to_string(one.line);
+    mode.ratio = one.zeta;
+    mode.from = mode.to = one.hz;
+    mode.points         = std::move(one.points);
+    if (!mode.points.empty())
+      mode.shape = Eigen::Map<const Eigen::VectorXcd>(one.shape.data(), Eigen::Index(one.shape.size()));
+    modes.push_back(std::move(mode));
+  }
+  return modes;
+}
+
+/// One row of `modes`: of a number, an interval, or those of a file.
+std::vector<fem::NamedRatio> read_named(const SceneTable &row)
+{
+  const bool number = row.has("mode"), interval = row.has("from") || row.has("to"), file = row.has("file");
+  if (int(number) + int(interval) + int(file) != 1)
+    throw row.error("needs either `mode`, or `from` and `to`, or `file`");
+  if (file)
+  {
+    if (row.has("ratio"))
+      throw row.error("ratio", "is read from the file; leave it out here");
+    const std::string name = row.file("file"), ending = std::filesystem::path(name).extension().string();
+    auto              modes = ending == ".csv" ? measured_in_table(name) : measured_in_universal_file(name);
+    if (modes.empty())
+      throw row.error("file", "holds no modes; give it a row for each");
+    std::for_each(modes.begin(), modes.end(), check_measured);
+    return modes;
+  }
+  fem::NamedRatio one;
+  one.place = row.place();
+  row.demand({"ratio"});
+  one.ratio = row.value("ratio");
+  check_ratio(row, one.ratio);
+  if (number)
+  {
+    one.mode = row.whole("mode") - 1;
+    if (one.mode < 0)
+      throw row.error("mode", "is " + std::to_string(one.mode + 1) + "; the first elastic mode of the frame is 1");
+    return {one};
+  }
+  row.demand({"from", "to"});
+  one.from = row.value("from");
+  one.to   = row.value("to");
+  if (!(one.from >= 0.) || !(one.to > one.from))
+    throw row.error("to", "must lie above `from`, and both at zero or above");
+  return {one};
+}
+
+void read_modes(const SceneTable &damping, fem::ModalRatios &ratios)
+{
+  const auto rows = damping.table_array("modes");
+  if (rows.empty())
+    throw damping.error("modes", "is empty; give rows such as { mode = 1, ratio = 0.012 }, or leave it out");
+  for (const SceneTable &row : rows)
+    for (const fem::NamedRatio &one : read_named(row))
+    {
+      for (const fem::NamedRatio &other : ratios.named)
+        if (one.mode >= 0 && other.mode == one.mode)
+          throw row.error("gives mode " + std::to_string(one.mode + 1) + " a second ratio; leave one of them out");
+        else if (one.from < one.to && other.from < other.to && one.from < other.to && other.from < one.to)
+          throw row.error("covers frequencies from " + short_text(std::max(one.from, other.from)) + " to " +
+                          short_text(std::min(one.to, other.to)) +
+                          " Hz that another row covers as well; let one end where the other begins");
+      ratios.named.push_back(one);
+    }
+}
+
 fem::ModalRatios read_ratios(const SceneTable &damping)
 {
   fem::ModalRatios ratios;
+  if (damping.has("modes"))
+    read_modes(damping, ratios);
+  if (damping.has("modes") && !damping.has("ratio"))
+    return ratios;
   if (damping.is_matrix("ratio"))
     for (const auto &[hz, zeta] : damping.pairs("ratio", kind::frequency, kind::number))
     {
@@ -32,11 +156,20 @@ fem::ModalRatios read_ratios(const SceneTable &damping)
     }
   else if (damping.is_array("ratio"))
   {
-    ratios.by_mode = damping.numbers("ratio", kind::number);
-    if (ratios.by_mode.empty())
+    const std::vector<double> list = damping.numbers("ratio", kind::number);
+    if (list.empty())
       throw damping.error("ratio", "is empty; give one number for all modes, or one for each of the lowest");
-    for (const double zeta : ratios.by_mode)
+    for (const double zeta : list)
       check_ratio(damping, zeta);
+    if (list.size() > 1 && !ratios.named.empty())
+      throw damping.error("modes", "names modes, and so does the list `ratio`; give all of them here, and one `ratio` "
+                                   "for the others");
+    for (std::size_t i = 0; i + 1 < list.size(); ++i)
+    {
+      ratios.named.push_back({list[i], int(i)});
+      ratios.named.back().place = damping.place("ratio");
+    }
+    ratios.constant = list.back();
   }
   else
   {
@@ -80,7 +213,26 @@ const std::vector<Key> &damping_keys()
                   "second and all higher modes; `[[\"20 Hz\", 0.01], [\"90 Hz\", 0.02]]`: over frequency, linear "
                   "between the rows, constant beyond")
           .also({Key::Form::numbers, Key::Form::matrix})
-          .by_default("`rayleigh`"),
+          .by_default("`rayleigh`, or zero for modes that `modes` does not name"),
+      key::composed(
+          "modes", Key::Form::tables, kind::number,
+          {key::plain("mode", Key::Form::whole, "number of an elastic mode of the supported frame, from 1")
+               .by_default(""),
+           key::number("from", kind::frequency, "in place of it, lower end of an interval of frequencies")
+               .by_default(""),
+           key::number("to", kind::frequency, "its upper end").by_default(""),
+           key::plain("file", Key::Form::file,
+                      "in place of both, measured modes: CSV with the columns `frequency [Hz]`, `ratio` and perhaps "
+                      "`mode`, or a universal file with data sets 55")
+               .by_default(""),
+           key::number("ratio", kind::number, "damping ratio").by_default("of the file")},
+          "damping ratios of single modes of the supported frame, in place of `ratio`, which the others keep; exact in "
+          "`gestell modes`. A number goes before an interval. Measured modes without a number get the mode of the "
+          "frame "
+          "with the most similar shape (MAC) within 30 % of their frequency, or without shapes of the nearest "
+          "frequency "
+          "within 20 %")
+          .by_default("none"),
       key::composed("rayleigh", Key::Form::tables, kind::number,
                     {key::number("frequency", kind::frequency, "frequency of a pair").above_zero(),
                      key::number("ratio", kind::number, "damping ratio at this frequency")},
@@ -97,8 +249,8 @@ FrameDamping read_damping(const SceneTable &any)
   FrameDamping     result;
   if (!damping.has("rayleigh"))
     result.ratios = read_ratios(damping);
-  else if (damping.has("ratio"))
-    throw damping.error("rayleigh", "defines the damping of all modes, as `ratio` does; remove one of them");
+  else if (damping.has("ratio") || damping.has("modes"))
+    throw damping.error("rayleigh", "defines the damping of all modes, as `ratio` and `modes` do; remove one of them");
   else
     read_rayleigh(damping, result);
   return result;

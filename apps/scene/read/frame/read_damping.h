@@ -14,7 +14,8 @@ struct FrameDamping
 };
 
 /// `damping` of a frame: { ratio = 0.02 }, { ratio = [0.01, 0.02] } by mode, { ratio = [["20 Hz", 0.01], ["90 Hz",
-/// 0.02]] } by frequency, or { rayleigh = [{ frequency, ratio }, { frequency, ratio }] }.
+/// 0.02]] } by frequency, with single modes by { modes = [{ mode, ratio }, { from, to, ratio }, { file }] }, or {
+/// rayleigh = [{ frequency, ratio }, { frequency, ratio }] }.
 FrameDamping read_damping(const SceneTable &damping);
 
 /// Keys of that table.

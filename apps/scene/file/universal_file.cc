@@ -1,12 +1,14 @@
-#include "apps/analysis/frf/universal_file.h"
+#include "apps/scene/file/universal_file.h"
 
 #include "coupling/frame/number_in_file.h"
+#include "fem/values/number_text.h"
 #include "fem/values/trimmed.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -150,20 +152,108 @@ UniversalFunction function_of(const DataSet &set)
   return function;
 }
 
+void require_si(const DataSet &set)
+{
+  constexpr int si_units = 1; // data set 164, record 1: SI
+  if (set.kind == "164" && !set.records.empty() && first_number(set, 0) != si_units)
+    set.refuse(0, "the units are of code " + std::to_string(first_number(set, 0)) + "; write the file in SI (code 1)");
+}
+
+using Nodes = std::map<double, std::array<double, 3>>; ///< by their numbers
+
+/// Nodes of a data set 15 (one record each) or 2411 (two).
+void add_nodes(const DataSet &set, Nodes &nodes)
+{
+  const std::size_t records = set.kind == "15" ? 1 : 2;
+  for (std::size_t i = 0; i + records <= set.records.size(); i += records)
+  {
+    const std::vector<double> node = numbers(set, i, i + records);
+    if (node.size() != 7)
+      set.refuse(i, "a node needs its number, three more whole numbers and x, y, z; found " +
+                        std::to_string(node.size()) + " numbers");
+    nodes[node[0]] = {node[4], node[5], node[6]};
+  }
+}
+
+/// Whether the data set holds a mode, which is stored in `mode`; data of other analyses are none.
+bool is_mode(const DataSet &set, const Nodes &nodes, UniversalMode &mode)
+{
+  constexpr int n_head = 8; // records before the nodes
+  if (set.records.size() < n_head)
+    set.refuse(set.records.size(), "ends within its head; it needs eight lines before the nodes");
+  const std::vector<double> form = numbers(set, 5, 6), head = numbers(set, 6, 7), real = numbers(set, 7, 8);
+  if (form.size() < 6 || head.size() < 2)
+    set.refuse(5, "needs six numbers that say what its data are, and two sizes in the line after them");
+  const int  analysis = whole(form[1]), width = whole(form[5]);
+  const bool is_normal = analysis == 2, is_complex = analysis == 3 || analysis == 7; // eigenvalues
+  if (!is_normal && !is_complex)
+    return false;
+  if (real.size() < (is_normal ? 3U : 2U) || width < 3)
+    set.refuse(7, is_normal ? "a mode needs its frequency, modal mass and damping ratio, and three values per node"
+                            : "a mode needs both parts of its eigenvalue, and three values per node");
+  mode.line                        = set.line;
+  mode.hz                          = is_normal ? real[0] : std::hypot(real[0], real[1]) / (2. * M_PI);
+  mode.zeta                        = is_normal ? real[2] : -real[0] / std::hypot(real[0], real[1]);
+  const std::size_t         parts  = whole(form[4]) == 5 || whole(form[4]) == 6 ? 2 : 1; // of a complex value
+  const std::vector<double> values = numbers(set, n_head, set.records.size());
+  const std::size_t         record = 1 + std::size_t(width) * parts;
+  if (values.size() % record != 0)
+    set.refuse(n_head, "has " + std::to_string(values.size()) + " numbers, but a node and its values take " +
+                           std::to_string(record));
+  for (std::size_t i = 0; i < values.size(); i += record)
+  {
+    const auto node = nodes.find(values[i]);
+    if (!nodes.empty() && node == nodes.end())
+      set.refuse(n_head, "node " + short_text(values[i], 10) + " has no coordinates in data sets 15 and 2411");
+    for (std::size_t d = 0; d < 3; ++d)
+      mode.shape.emplace_back(values[i + 1 + parts * d], parts == 2 ? values[i + 2 + parts * d] : 0.);
+    if (node != nodes.end())
+      mode.points.push_back(node->second);
+  }
+  return true;
+}
+
 } // namespace
+
+std::vector<UniversalMode> read_universal_modes(const std::string &file)
+{
+  const std::vector<DataSet> sets = data_sets(file);
+  Nodes                      nodes;
+  std::vector<UniversalMode> modes;
+  for (const DataSet &set : sets)
+  {
+    require_si(set);
+    if (set.kind == "15" || set.kind == "2411")
+      add_nodes(set, nodes);
+  }
+  for (const DataSet &set : sets)
+    if (UniversalMode mode; set.kind == "55" && is_mode(set, nodes, mode))
+      modes.push_back(std::move(mode));
+  if (modes.empty())
+    throw std::invalid_argument(file +
+                                ": holds no modes, which are written as data sets 55 of normal or complex modes");
+  return modes;
+}
 
 std::vector<UniversalFunction> read_universal_functions(const std::string &file)
 {
   std::vector<UniversalFunction> functions;
-  constexpr int                  si_units = 1; // data set 164, record 1: SI
   for (const DataSet &set : data_sets(file))
+  {
+    require_si(set);
     if (set.kind == "58b")
+<<<<<<< HEAD:apps/analysis/frf/universal_file.cc
       set.refuse(0, "is binary; export the file in ASCII");
     else if (set.kind == "164" && !set.records.empty() && first_number(set, 0) != si_units)
       set.refuse(0,
                  "the unit code is " + std::to_string(first_number(set, 0)) + "; export the file in SI units (code 1)");
     else if (set.kind == "58")
+=======
+      set.refuse(0, "is binary; write the file in ASCII");
+    if (set.kind == "58")
+>>>>>>> 75a12968ca33c61a5e306f2fa449771850a40bc9:apps/scene/file/universal_file.cc
       functions.push_back(function_of(set));
+  }
   if (functions.empty())
     throw std::invalid_argument(file + ": contains no data set 58 (frequency response functions)");
   return functions;

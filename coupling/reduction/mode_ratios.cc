@@ -1,0 +1,172 @@
+#include "coupling/reduction/mode_ratios.h"
+
+#include "coupling/algebra/dense_modes.h"
+#include "fem/values/number_text.h"
+#include "fem/values/two_pi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Relative distance of frequencies up to which modes are compared: what differs more is another mode or another frame.
+constexpr double near_frequency = 0.2, near_with_shape = 0.3;
+/// The MAC of one shape with orthogonal ones sum up to 1: above one half there is one.
+constexpr double least_mac = 0.5;
+
+/// A mode of the frame that may be the measured one.
+struct Candidate
+{
+  int    mode; ///< elastic, from 0
+  double hz, distance, mac;
+};
+
+/// Index of the point of the frame nearest to each measured point; none if one of them is off the frame.
+std::optional<std::vector<Eigen::Index>> nearest_points(const fem::NamedRatio &measured, const ModesAtPoints &frame)
+{
+  if (frame.points.empty() || frame.shapes.rows() != 3 * Eigen::Index(frame.points.size()))
+    return {};
+  const Eigen::Map<const Eigen::Matrix3Xd> points(frame.points.front().data(), 3, Eigen::Index(frame.points.size()));
+  constexpr double                         on_frame = 0.02; // of its size: paths of sensors are measured by hand
+  const double                             size = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+  std::vector<Eigen::Index>                found;
+  for (const auto &point : measured.points)
+  {
+    Eigen::Index best = 0;
+    const double off =
+        std::sqrt((points.colwise() - Eigen::Vector3d(point.data())).colwise().squaredNorm().minCoeff(&best));
+    if (off > on_frame * size)
+      return {};
+    found.push_back(best);
+  }
+  return found;
+}
+
+double mac(const Eigen::VectorXcd &a, const VectorXd &b)
+{
+  const double size = a.squaredNorm() * b.squaredNorm();
+  return size > 0. ? std::norm(a.dot(b.cast<std::complex<double>>())) / size : 0.;
+}
+
+/// The elastic modes near the measured frequency, with their MAC if it can be known; else nan.
+std::vector<Candidate> candidates_of(const fem::NamedRatio &measured, const ModesAtPoints &frame)
+{
+  const auto                points = measured.shape.size() > 0 ? nearest_points(measured, frame) : std::nullopt;
+  const double              within = points ? near_with_shape : near_frequency;
+  std::vector<Candidate>    found;
+  std::vector<Eigen::Index> values; // that were measured
+  for (Eigen::Index i = 0; points && i < measured.shape.size(); ++i)
+    if (measured.shape[i] != 0.)
+      values.push_back(i);
+  for (Eigen::Index j = 0, elastic = 0; j < frame.omega.size(); ++j)
+  {
+    if (frame.omega[j] <= 0.)
+      continue;
+    const double hz = frame.omega[j] / two_pi;
+    Candidate    own{int(elastic++), hz, std::abs(hz / measured.from - 1.), std::numeric_limits<double>::quiet_NaN()};
+    if (own.distance > within)
+      continue;
+    if (points)
+    {
+      VectorXd b(Eigen::Index(values.size()));
+      for (std::size_t i = 0; i < values.size(); ++i)
+        b[Eigen::Index(i)] = frame.shapes(3 * (*points)[std::size_t(values[i] / 3)] + values[i] % 3, j);
+      own.mac = mac(measured.shape(values), b);
+    }
+    found.push_back(own);
+  }
+  if (values.size() < found.size()) // such shapes tell nothing apart
+    for (Candidate &own : found)
+      own.mac = std::numeric_limits<double>::quiet_NaN();
+  return found;
+}
+
+std::string words(const Candidate &own)
+{
+  return "mode " + std::to_string(own.mode + 1) + ", " + rounded(own.hz) + " Hz" +
+         (std::isnan(own.mac) ? "" : ", MAC " + rounded(own.mac, 2));
+}
+
+std::string words(const fem::NamedRatio &measured)
+{
+  return "the measured mode of " + rounded(measured.from) + " Hz";
+}
+
+[[noreturn]] void refuse(const fem::NamedRatio &one, const std::string &reason)
+{
+  throw std::invalid_argument((one.place.empty() ? std::string("damping") : one.place) + ": " + reason);
+}
+
+int mode_of(const fem::NamedRatio &measured, const ModesAtPoints &frame, std::vector<std::string> &statements)
+{
+  const std::vector<Candidate> near = candidates_of(measured, frame);
+  const bool  shapes = std::any_of(near.begin(), near.end(), [](const Candidate &own) { return !std::isnan(own.mac); });
+  const auto  best   = std::max_element(near.begin(), near.end(),
+                                        [&](const Candidate &a, const Candidate &b)
+                                        { return shapes ? a.mac < b.mac : a.distance > b.distance; });
+  std::string others;
+  for (const Candidate &own : near)
+    others += (others.empty() ? "" : "; ") + words(own);
+  if (near.empty())
+    refuse(measured, words(measured) + " matches none of the frame's: no elastic mode is within " +
+                         percent(near_frequency) + " of it; correct the frame, or leave the measured mode out");
+  if (shapes && !(best->mac >= least_mac))
+    refuse(measured, words(measured) + " matches none of the frame's: a MAC of " + rounded(least_mac, 2) +
+                         " is needed, but there are " + others + "; correct the frame, or give the number of the mode");
+  statements.push_back("damping: " + words(measured) + " is " + words(*best) + " of the frame, ratio " +
+                       percent(measured.ratio));
+  return best->mode;
+}
+
+} // namespace
+
+fem::ModalRatios matched(fem::ModalRatios ratios, const ModesAtPoints &modes, std::vector<std::string> &statements)
+{
+  const auto elastic = (modes.omega.array() > 0.).count();
+  for (std::size_t i = 0; i < ratios.named.size(); ++i)
+  {
+    fem::NamedRatio &one = ratios.named[i];
+    if (one.is_measured())
+      one.mode = mode_of(one, modes, statements);
+    const auto inside =
+        (modes.omega.array() > 0. && modes.omega.array() >= two_pi * one.from && modes.omega.array() < two_pi * one.to)
+            .count();
+    if (one.mode < 0 && inside == 0)
+      refuse(one, "no elastic mode of the frame has a frequency from " + rounded(one.from) + " to " + rounded(one.to) +
+                      " Hz; `gestell modes` prints them");
+    if (one.mode >= elastic)
+      refuse(one, "is of mode " + std::to_string(one.mode + 1) + ", but the model of the frame has " +
+                      std::to_string(elastic) + " elastic modes; give a lower number, or reduction.modes more");
+    for (std::size_t other = 0; other < i && one.mode >= 0; ++other)
+      if (ratios.named[other].mode == one.mode)
+        refuse(one, "mode " + std::to_string(one.mode + 1) + " has two ratios, " + percent(ratios.named[other].ratio) +
+                        " and " + percent(one.ratio) +
+                        "; leave one out, or give measured modes the numbers of the frame's in a column `mode`");
+  }
+  return ratios;
+}
+
+void add_modal_damping(ReducedFrame &frame, const fem::ModalRatios &ratios)
+{
+  if (!ratios.any())
+    return;
+  const DenseModes own = dense_modes(frame.C, frame.M, cancelled_by_reduction, frame.n_rigid());
+  ModesAtPoints    modes{own.omega, frame.points};
+  if (frame.displacement.rows() > 0)
+    modes.shapes = frame.displacement.cast<double>() * own.V;
+  const Eigen::VectorXd d = matched(ratios, modes, frame.statements).modal_dampers(own.omega);
+  const Eigen::MatrixXd Z = frame.M * own.V;
+  frame.B += Z * d.asDiagonal() * Z.transpose();
+}
+
+} // namespace gestell::coupling

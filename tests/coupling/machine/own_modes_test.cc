@@ -1,0 +1,142 @@
+#include "coupling/machine/own_modes.h"
+
+#include "coupling/algebra/dense_modes.h"
+#include "coupling/integration/bdf/bdf.h"
+#include "coupling/machine/machine.h"
+#include "tests/support/test.h"
+
+namespace gestell
+{
+namespace
+{
+
+using coupling::OwnModes;
+using coupling::ReducedFrame;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int n1 = 6, m = 70, n = n1 + m;
+
+/// In Craig-Bampton coordinates, with another damping ratio in each of its own modes.
+ReducedFrame frame_with_modal_damping()
+{
+  std::srand(5);
+  const auto   square = [](const MatrixXd &A) -> MatrixXd { return A * A.transpose(); };
+  ReducedFrame frame;
+  frame.n_interface = n1;
+  frame.interfaces  = {{"top", {}, {0, 1, 2, 3, 4, 5}, {1., 1., 1., 1., 1., 1.}}};
+  frame.omega0      = VectorXd::LinSpaced(m, 200., 20000.);
+  const MatrixXd G  = (1e3 * frame.omega0.cwiseInverse()).asDiagonal() * MatrixXd::Random(m, n1);
+  frame.M           = MatrixXd::Identity(n, n);
+  frame.M.topLeftCorner(n1, n1) =
+      G.transpose() * G + square(MatrixXd::Random(n1, n1)) + 0.1 * MatrixXd::Identity(n1, n1);
+  frame.M.bottomLeftCorner(m, n1) = G;
+  frame.M.topRightCorner(n1, m)   = G.transpose();
+  frame.C                         = MatrixXd::Zero(n, n);
+  frame.C.topLeftCorner(n1, n1)   = 1e7 * (square(MatrixXd::Random(n1, n1)) + 0.1 * MatrixXd::Identity(n1, n1));
+  frame.C.bottomRightCorner(m, m) = frame.omega0.cwiseAbs2().asDiagonal();
+  const auto     own              = coupling::dense_modes(frame.C, frame.M);
+  const MatrixXd Z                = frame.M * own.V;
+  frame.B              = Z * (VectorXd::LinSpaced(n, 0.02, 0.1).cwiseProduct(own.omega)).asDiagonal() * Z.transpose();
+  frame.frequencies_hz = own.omega / (2. * M_PI);
+  frame.translations_load = MatrixXd::Random(n, 3);
+  return frame;
+}
+
+TEST(OwnModes, AreOtherCoordinatesOfTheSameFrame)
+{
+  const ReducedFrame frame  = frame_with_modal_damping();
+  ReducedFrame       turned = frame;
+  ASSERT_TRUE(coupling::turn_to_own_modes(turned));
+  // Receptance of the interface, and its motion under weight.
+  const std::complex<double> s(0., 300.);
+  const auto                 answer = [&](const ReducedFrame &of) -> Eigen::MatrixXcd
+  {
+    Eigen::MatrixXcd load = Eigen::MatrixXcd::Zero(n, n1 + 3);
+    load.topLeftCorner(n1, n1).setIdentity();
+    load.rightCols(3) = of.translations_load.cast<std::complex<double>>();
+    return ((s * s * of.M + s * of.B + of.C).lu().solve(load)).topRows(n1);
+  };
+  const Eigen::MatrixXcd expected = answer(frame);
+  EXPECT_LT((answer(turned) - expected).norm(), 1e-10 * expected.norm());
+  ReducedFrame twice = turned;
+  ASSERT_TRUE(coupling::turn_to_own_modes(twice));
+  EXPECT_LT((twice.M - turned.M).norm(), 1e-9 * turned.M.norm());
+  EXPECT_LT((twice.C - turned.C).norm(), 1e-9 * turned.C.norm());
+}
+
+TEST(OwnModes, AreLeftAloneWhereDampingDoesNotFitThemOrStepsAreCheapAnyway)
+{
+  ReducedFrame damped = frame_with_modal_damping();
+  damped.B(0, 0) += 1e3; // a damper of a foundation
+  EXPECT_FALSE(coupling::turn_to_own_modes(damped));
+  ReducedFrame rayleigh = frame_with_modal_damping();
+  rayleigh.B            = 3. * rayleigh.M + 1e-5 * rayleigh.C;
+  EXPECT_FALSE(coupling::turn_to_own_modes(rayleigh));
+}
+
+/// A body on a spring at the interface, and more inertia there.
+MatrixXd with_body(const MatrixXd &frame, double own, double between)
+{
+  MatrixXd whole            = MatrixXd::Zero(n + 1, n + 1);
+  whole.topLeftCorner(n, n) = frame;
+  whole(0, 0) += own + between;
+  whole(n, n) = own + between;
+  whole(0, n) = whole(n, 0) = -between;
+  return whole;
+}
+
+TEST(OwnModes, MultiplyAndSolveAsTheMatricesDo)
+{
+  ReducedFrame                  frame = frame_with_modal_damping();
+  const std::optional<OwnModes> modes = coupling::turn_to_own_modes(frame);
+  const MatrixXd M = with_body(frame.M, 2., 0.), B = with_body(frame.B, 10., 5.), C = with_body(frame.C, 0., 1e6);
+  const coupling::OwnModeBase base(M, B, C, *modes);
+  const VectorXd              x = VectorXd::Random(n + 1), f = 1e-3 * VectorXd::Random(n + 1);
+  VectorXd                    y(n + 1);
+  base.mass_times(x, y);
+  EXPECT_LT((y - M * x).norm(), 1e-12 * (M * x).norm());
+  base.damping_times(x, y);
+  EXPECT_LT((y - B * x).norm(), 1e-12 * (B * x).norm());
+  base.stiffness_times(x, y);
+  EXPECT_LT((y - C * x).norm(), 1e-12 * (C * x).norm());
+
+  const double   h_beta = 1e-5;
+  const auto     solver = base.factorise(1., h_beta, h_beta * h_beta);
+  const MatrixXd A      = M + h_beta * B + h_beta * h_beta * C;
+  const VectorXd whole = A.ldlt().solve(f), step = A.ldlt().solve(M * x + f);
+  solver->solve(f, y);
+  EXPECT_LT((y - whole).norm(), 1e-10 * whole.norm());
+  solver->solve_leading(x, f, y);
+  solver->solve_following(x, f, y);
+  EXPECT_LT((y - step).norm(), 1e-10 * step.norm());
+}
+
+TEST(OwnModes, DoNotChangeTheMotionOfTheInterface)
+{
+  const auto run = [](bool modal)
+  {
+    ReducedFrame frame = frame_with_modal_damping();
+    frame.modal        = modal; // false: its coordinates stay
+    coupling::MachineModel model;
+    model.set_frame(frame);
+    const coupling::Machine machine(std::move(model));
+    coupling::Bdf::Options  options;
+    options.step = 1e-4;
+    coupling::Bdf bdf(machine, options);
+    VectorXd      v = VectorXd::Zero(n);
+    v[0]            = 1.;
+    // The same motion: internal displacements of both are zero, velocities follow the interface.
+    const MatrixXd &M = machine.model().reduced_frame()->M;
+    v.tail(m)         = -M.bottomRightCorner(m, m).ldlt().solve(M.bottomLeftCorner(m, n1) * v.head(n1));
+    bdf.begin(0., VectorXd::Zero(n), v);
+    for (int i = 0; i < 100; ++i)
+      bdf.advance();
+    return VectorXd(bdf.instant().q.head(n1));
+  };
+  const VectorXd expected = run(false);
+  EXPECT_LT((run(true) - expected).norm(), 1e-9 * expected.norm());
+}
+
+} // namespace
+} // namespace gestell
