@@ -156,7 +156,7 @@ void require_si(const DataSet &set)
 {
   constexpr int si_units = 1; // data set 164, record 1: SI
   if (set.kind == "164" && !set.records.empty() && first_number(set, 0) != si_units)
-    set.refuse(0, "the units are of code " + std::to_string(first_number(set, 0)) + "; write the file in SI (code 1)");
+    set.refuse(0, "the unit code is " + std::to_string(first_number(set, 0)) + "; export the file in SI units (code 1)");
 }
 
 using Nodes = std::map<double, std::array<double, 3>>; ///< by their numbers
@@ -242,16 +242,8 @@ std::vector<UniversalFunction> read_universal_functions(const std::string &file)
   {
     require_si(set);
     if (set.kind == "58b")
-<<<<<<< HEAD:apps/analysis/frf/universal_file.cc
       set.refuse(0, "is binary; export the file in ASCII");
-    else if (set.kind == "164" && !set.records.empty() && first_number(set, 0) != si_units)
-      set.refuse(0,
-                 "the unit code is " + std::to_string(first_number(set, 0)) + "; export the file in SI units (code 1)");
-    else if (set.kind == "58")
-=======
-      set.refuse(0, "is binary; write the file in ASCII");
     if (set.kind == "58")
->>>>>>> 75a12968ca33c61a5e306f2fa449771850a40bc9:apps/scene/file/universal_file.cc
       functions.push_back(function_of(set));
   }
   if (functions.empty())
