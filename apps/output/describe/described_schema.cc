@@ -47,14 +47,6 @@ std::string whole_meaning(const std::string &name, const std::string &meaning)
   return words + ' ' + meaning;
 }
 
-/// A cell of a table; vertical bars would end it.
-std::string table_text(std::string text)
-{
-  for (auto at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2))
-    text.insert(at, "\\");
-  return text;
-}
-
 /// "`t` [s], `modes` (`mode`, `energy` [J])": members without their meaning.
 std::string member_names(const Json &schema)
 {
@@ -89,7 +81,7 @@ std::string member_rows(const Json &schema, const std::string &at)
                         inner = at.empty() ? "" : member_names(own);
       rows += "| `" + path + "` | " + type_name(own) +
               (std::find(always.begin(), always.end(), name) == always.end() ? ", if any" : "") + " | " + unit + " | " +
-              table_text(whole_meaning(name, meaning)) + (inner.empty() ? "" : ": " + inner) + " |\n" +
+              whole_meaning(name, meaning) + (inner.empty() ? "" : ": " + inner) + " |\n" +
               (at.empty() ? member_rows(own, path) : "");
     }
   return rows;

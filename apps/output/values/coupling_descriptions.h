@@ -67,7 +67,7 @@ void describe(Visitor &v, const EnergySummary &x)
   v("input", x.input, "J", "work of the drives");
   v("stored", x.stored, "J", "change since the start");
   v("dissipated", x.dissipated, "J", "energy dissipated by dampers, friction, contacts and tools");
-  v("residual", x.residual, "J", "largest |input - stored - dissipated| over time");
+  v("residual", x.residual, "J", "largest magnitude of input - stored - dissipated over time");
   v("exchanged", x.exchanged, "J", "reference energy of the residual");
 }
 
@@ -77,7 +77,7 @@ void describe(Visitor &v, const Pole &x)
   v("real", x.s.real(), "1/s", "real part");
   v("imaginary", x.s.imag(), "1/s", "imaginary part");
   v("frequency_hz", x.frequency_hz(), "Hz", "damped frequency");
-  v("damping_ratio", x.damping_ratio(), "1", "-Re s/|s|; negative: growing");
+  v("damping_ratio", x.damping_ratio(), "1", "-Re(s)/abs(s); negative: growing");
   v("moves_most", x.moves, "", "coordinate with the largest share of kinetic energy");
 }
 
@@ -106,8 +106,8 @@ void describe(Visitor &v, const ModeAccuracy &x)
   v("modes_of", x.origin == ModeOrigin::base ? "base" : "closed", "",
     "`base`: machine with open contacts, in the DOFs left free by its joints; `closed`: all contacts closed");
   v("number", x.number, "", "number in order of frequency, starting at 1");
-  v("frequency_hz", x.mode.omega / two_pi, "Hz", "frequency of the damped mode, |s|/2 pi");
-  v("damping_ratio", x.mode.zeta, "1", "-Re s/|s|");
+  v("frequency_hz", x.mode.omega / two_pi, "Hz", "frequency of the damped mode, abs(s)/(2 pi)");
+  v("damping_ratio", x.mode.zeta, "1", "-Re(s)/abs(s)");
   v("omega_h", x.omega_h, "1", "circular frequency times step");
   v("spectral_radius", x.spectral_radius, "1", "growth per step");
   v("numerical_damping", x.numerical_damping, "1", "damping ratio that the method adds");
