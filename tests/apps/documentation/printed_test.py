@@ -31,8 +31,8 @@ assert printed.is_printed("open by 112 J, ... 1 s", ["open by 112 J, which came 
 assert not printed.is_printed("open by 112 J, ...", ["open by 212 J, which came from nowhere"])
 assert printed.missing("a 1\n...\nb 2\n", "a 1\nc 3\n") == ["b 2"]
 
-BUDGET = "     output         value  unit  mesh  reduction  time  total\n"
-ERRORS = "  2  F_rod.min  -495297.6  N     1151        811  0.78   1964"
+BUDGET = "  no.  output         value  unit  mesh error  reduction error  time error  total error\n"
+ERRORS = "    2  F_rod.min  -495297.6  N           1151              811        0.78         1964"
 CHANGE = "F_rod  0.24 % of 1054547 N"
 assert printed.missing(BUDGET + ERRORS, BUDGET + ERRORS.replace("1151", "1082")) == [ERRORS]
 
