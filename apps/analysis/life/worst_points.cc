@@ -137,10 +137,12 @@ public:
   /// Signed von Mises stress of stresses [samples x 6].
   static VectorXd signed_history(const Eigen::Ref<const MatrixXd> &sigma)
   {
-    VectorXd history(sigma.rows());
-    for (Index t = 0; t < sigma.rows(); ++t)
-      history[t] = signed_von_mises(sigma.row(t).transpose());
-    return history;
+    const auto           xx = sigma.col(0).array(), yy = sigma.col(1).array(), zz = sigma.col(2).array();
+    const Eigen::ArrayXd sigma_v =
+        (0.5 * ((xx - yy).square() + (yy - zz).square() + (zz - xx).square()) +
+         3. * (sigma.col(3).array().square() + sigma.col(4).array().square() + sigma.col(5).array().square()))
+            .sqrt();
+    return (xx + yy + zz < -trace_of_rounding * sigma_v).select(-sigma_v, sigma_v);
   }
 
   /// The worst of `rows`, in their order; one whose bound is at most `enough` or the worst found is left out.
@@ -156,7 +158,9 @@ public:
     {
       if (bound[i] <= std::max(worst.damage, enough))
         break;
-      history             = sigma * rows.row(i).transpose();
+      const auto &w = rows.row(i);
+      history       = w[0] * sigma.col(0) + w[1] * sigma.col(1) + w[2] * sigma.col(2) + w[3] * sigma.col(3) +
+                w[4] * sigma.col(4) + w[5] * sigma.col(5);
       const double damage = this->damage(history.data());
       if (damage > worst.damage)
         worst = {point, damage, rows.row(i)};
