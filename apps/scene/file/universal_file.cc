@@ -169,8 +169,8 @@ void add_nodes(const DataSet &set, Nodes &nodes)
   {
     const std::vector<double> node = numbers(set, i, i + records);
     if (node.size() != 7)
-      set.refuse(i, "a node needs its number, three more whole numbers and x, y, z; found " +
-                        std::to_string(node.size()) + " numbers");
+      set.refuse(i, "a node needs its number, three more integers and x, y, z; found " + std::to_string(node.size()) +
+                        " numbers");
     nodes[node[0]] = {node[4], node[5], node[6]};
   }
 }
