@@ -33,6 +33,9 @@ public:
   /// Modes of the undamped system, omega ascending, each with the damping ratio v^T B v / (2 omega v^T M v); a mode
   /// without stiffness has omega = 0 and zeta = 0.
   virtual std::vector<SpectrumLine> spectrum() const = 0;
+
+  /// The same with whole matrices, if this one has none.
+  virtual const LinearBase &plain() const { return *this; }
 };
 
 } // namespace gestell::coupling

@@ -1,6 +1,7 @@
 #include "coupling/machine/machine_parts.h"
 
 #include "coupling/machine/dense_base.h"
+#include "coupling/machine/own_mode_base.h"
 #include "coupling/machine/sparse_base.h"
 
 #include <algorithm>
@@ -167,7 +168,8 @@ void MachineParts::assemble_dense(int n)
                         [&](const auto &entry) { return is_mode(entry.row()) || is_mode(entry.col()); });
   };
   if (own_modes && fits(M) && fits(B) && fits(C))
-    base = std::make_unique<OwnModeBase>(mass, damping, stiffness, *own_modes);
+    base = std::make_unique<OwnModeBase>(mass, damping, stiffness, *own_modes,
+                                         std::make_unique<DenseBase>(mass, damping, stiffness));
   else
     base = std::make_unique<DenseBase>(std::move(mass), std::move(damping), std::move(stiffness), modal);
 }

@@ -31,7 +31,7 @@ namespace
 /// w M with w on the diagonal of virtual coordinates, which nothing couples to others: the solver of all that has mass.
 std::unique_ptr<LinearSolver> factorise_mass(const LinearBase &base, const std::vector<int> &massless, double w)
 {
-  if (const auto *dense = dynamic_cast<const DenseBase *>(&base))
+  if (const auto *dense = dynamic_cast<const DenseBase *>(&base.plain()))
   {
     Eigen::MatrixXd       M    = dense->mass();
     const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(M.rows(), M.cols());
@@ -70,7 +70,7 @@ bool MachineLinear::dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen
 {
   // coordinates whose dense matrices are cheaper than their sparse factors, or nearly
   constexpr int largest_mechanism = 600;
-  if (const auto *dense = dynamic_cast<const DenseBase *>(parts_.base.get()))
+  if (const auto *dense = dynamic_cast<const DenseBase *>(&parts_.base->plain()))
   {
     M = dense->mass();
     B = dense->damping();
@@ -89,7 +89,7 @@ bool MachineLinear::dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen
 bool MachineLinear::sparse_matrices(Eigen::SparseMatrix<double> &M, Eigen::SparseMatrix<double> &B,
                                     Eigen::SparseMatrix<double> &C) const
 {
-  if (const auto *dense = dynamic_cast<const DenseBase *>(parts_.base.get()))
+  if (const auto *dense = dynamic_cast<const DenseBase *>(&parts_.base->plain()))
   {
     M = dense->mass().sparseView();
     B = dense->damping().sparseView();

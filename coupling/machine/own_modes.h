@@ -1,7 +1,6 @@
 #pragma once
 
 #include "coupling/frame/reduced_frame.h"
-#include "coupling/machine/dense_base.h"
 
 #include <optional>
 
@@ -31,41 +30,5 @@ struct OwnModes
 /// diagonal in its own. Interface coordinates stay. Turning twice changes nothing but rounding. Returns the modes, or
 /// nothing if it is left as it is.
 std::optional<OwnModes> turn_to_own_modes(ReducedFrame &frame);
-
-/**
- * A base system with the frame in its own modes, coordinates 0 .. n1 + m - 1, and other coordinates, which the matrices
- * couple to q1 alone.  Condenses eta_b to the others N: with K = R D_b^-1 R^T and H = D_a^-1 + K,
- *
- *     g = R D_b^-1 f_L,  (A_NN' + S^T H^-1 S) q_N = f_N + S^T H^-1 g,  l = H^-1 (S q1 - g),  eta_b = D_b^-1 (f_L + R^T
- * l)
- */
-class OwnModeBase final : public DenseBase
-{
-public:
-  /// @param M,  B, C  [n x n] of everything, in the turned coordinates
-  OwnModeBase(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C, OwnModes modes);
-
-  void                          mass_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  void                          damping_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  void                          stiffness_times(const Eigen::VectorXd &x, Eigen::VectorXd &y) const override;
-  std::unique_ptr<LinearSolver> factorise(double w_M, double w_B, double w_C) const override;
-
-private:
-  /// A matrix by its values in the modes, and its block of N.
-  struct Blocks
-  {
-    Eigen::MatrixXd NN;         // [n_N x n_N] of everything
-    PackedMatrix    packed, DS; // NN; D_a S [n1 x n1]
-    Eigen::VectorXd a, b;       // D
-  };
-  Blocks blocks_of(const Eigen::MatrixXd &A, const Eigen::VectorXd &values) const;
-  void   multiply(const Blocks &A, const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
-
-  OwnModes                modes_;
-  std::vector<int>        N_;
-  PackedMatrix            R_; // [m x n1] R^T
-  Blocks                  mass_, damping_, stiffness_;
-  mutable Eigen::VectorXd x_N_, y_N_, r_, t_; ///< padded
-};
 
 } // namespace gestell::coupling

@@ -19,11 +19,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Relative distance of frequencies up to which modes are compared: what differs more is another mode or another frame.
-constexpr double near_frequency = 0.2, near_with_shape = 0.3;
-/// The MAC of one shape with orthogonal ones sum up to 1: above one half there is one.
-constexpr double least_mac = 0.5;
-
 /// A mode of the frame that may be the measured one.
 struct Candidate
 {
@@ -61,8 +56,8 @@ double mac(const Eigen::VectorXcd &a, const VectorXd &b)
 /// The elastic modes near the measured frequency, with their MAC if it can be known; else nan.
 std::vector<Candidate> candidates_of(const fem::NamedRatio &measured, const ModesAtPoints &frame)
 {
-  const auto                points = measured.shape.size() > 0 ? nearest_points(measured, frame) : std::nullopt;
-  const double              within = points ? near_with_shape : near_frequency;
+  const auto   points = measured.shape.size() > 0 ? nearest_points(measured, frame) : std::nullopt;
+  const double within = points ? 0.3 : 0.2; // of the frequency: what differs more is another mode, or another frame
   std::vector<Candidate>    found;
   std::vector<Eigen::Index> values; // that were measured
   for (Eigen::Index i = 0; points && i < measured.shape.size(); ++i)
@@ -110,16 +105,17 @@ std::string words(const fem::NamedRatio &measured)
 int mode_of(const fem::NamedRatio &measured, const ModesAtPoints &frame, std::vector<std::string> &statements)
 {
   const std::vector<Candidate> near = candidates_of(measured, frame);
-  const bool  shapes = std::any_of(near.begin(), near.end(), [](const Candidate &own) { return !std::isnan(own.mac); });
-  const auto  best   = std::max_element(near.begin(), near.end(),
-                                        [&](const Candidate &a, const Candidate &b)
-                                        { return shapes ? a.mac < b.mac : a.distance > b.distance; });
-  std::string others;
+  const bool shapes = std::any_of(near.begin(), near.end(), [](const Candidate &own) { return !std::isnan(own.mac); });
+  const auto best   = std::max_element(near.begin(), near.end(),
+                                       [&](const Candidate &a, const Candidate &b)
+                                       { return shapes ? a.mac < b.mac : a.distance > b.distance; });
+  constexpr double least_mac = 0.5; // those of one shape with orthogonal ones sum up to 1: above it there is one
+  std::string      others;
   for (const Candidate &own : near)
     others += (others.empty() ? "" : "; ") + words(own);
   if (near.empty())
-    refuse(measured, words(measured) + " matches none of the frame's: no elastic mode is within " +
-                         percent(near_frequency) + " of it; correct the frame, or leave the measured mode out");
+    refuse(measured, words(measured) + " matches none of the frame's: no elastic mode is near it; correct the frame, "
+                                       "or leave the measured mode out");
   if (shapes && !(best->mac >= least_mac))
     refuse(measured, words(measured) + " matches none of the frame's: a MAC of " + rounded(least_mac, 2) +
                          " is needed, but there are " + others + "; correct the frame, or give the number of the mode");

@@ -156,7 +156,8 @@ void require_si(const DataSet &set)
 {
   constexpr int si_units = 1; // data set 164, record 1: SI
   if (set.kind == "164" && !set.records.empty() && first_number(set, 0) != si_units)
-    set.refuse(0, "the unit code is " + std::to_string(first_number(set, 0)) + "; export the file in SI units (code 1)");
+    set.refuse(0,
+               "the unit code is " + std::to_string(first_number(set, 0)) + "; export the file in SI units (code 1)");
 }
 
 using Nodes = std::map<double, std::array<double, 3>>; ///< by their numbers
@@ -169,8 +170,8 @@ void add_nodes(const DataSet &set, Nodes &nodes)
   {
     const std::vector<double> node = numbers(set, i, i + records);
     if (node.size() != 7)
-      set.refuse(i, "a node needs its number, three more integers and x, y, z; found " +
-                        std::to_string(node.size()) + " numbers");
+      set.refuse(i, "a node needs its number, three more integers and x, y, z; found " + std::to_string(node.size()) +
+                        " numbers");
     nodes[node[0]] = {node[4], node[5], node[6]};
   }
 }

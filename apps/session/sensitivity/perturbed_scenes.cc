@@ -4,6 +4,7 @@
 #include "apps/scene/file/parameters.h"
 #include "apps/session/joint_opening.h"
 #include "coupling/frame/frame_recipe.h"
+#include "coupling/machine/own_modes.h"
 #include "coupling/sensitivity/frame_derivative.h"
 #include "coupling/sensitivity/motion_linearisation.h"
 #include "fem/values/number_text.h"
@@ -78,6 +79,14 @@ private:
   VariedKey     &key_;
 };
 
+/// The frame of the scene in the coordinates in which a machine has it.
+coupling::ReducedFrame frame_of_machine(const Scene &scene, const coupling::Progress &progress)
+{
+  coupling::ReducedFrame frame = reduced_frame(scene, progress).frame;
+  coupling::turn_to_own_modes(frame);
+  return frame;
+}
+
 /// The frame with as many modes as another has.
 coupling::ReducedFrame frame_with_modes_of(const coupling::ReducedFrame &other, Scene scene,
                                            const coupling::Progress &progress)
@@ -85,7 +94,7 @@ coupling::ReducedFrame frame_with_modes_of(const coupling::ReducedFrame &other, 
   const auto after = other.M.rows() - other.n_interface;
   if (scene.frame.source != FrameSource::parts && scene.reduction.options.n_modes < 0 && after == other.n_fixed_modes)
     scene.reduction.options.n_modes = other.n_fixed_modes;
-  return reduced_frame(scene, progress).frame;
+  return frame_of_machine(scene, progress);
 }
 
 /// Derivative of the frame with respect to a key that changes it: a quotient of two cached frames.
@@ -106,9 +115,9 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
     const auto below = frame_with_modes_of(frame, varied.at(-steps), progress),
                above = frame_with_modes_of(frame, varied.at(steps), progress);
     // a study leaves out the skin, by which modes are recognised
-    auto derivative    = frame.points.empty() ? coupling::frame_derivative(reduced_frame(scene, progress).frame, below,
-                                                                           above, steps * key.step)
-                                              : coupling::frame_derivative(frame, below, above, steps * key.step);
+    auto derivative = frame.points.empty() ? coupling::frame_derivative(frame_of_machine(scene, progress), below, above,
+                                                                        steps * key.step)
+                                           : coupling::frame_derivative(frame, below, above, steps * key.step);
     key.reported.frame = "differences of two reductions at " + percent(anew ? of_meshes : of_matrices) +
                          (anew ? " above and below, each meshed again" : " above and below");
     constexpr double rough = 0.05; // of a difference of frames: larger errors are reported

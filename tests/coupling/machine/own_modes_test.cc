@@ -1,7 +1,8 @@
-#include "coupling/machine/own_modes.h"
+#include "coupling/machine/own_mode_base.h"
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/integration/bdf/bdf.h"
+#include "coupling/machine/dense_base.h"
 #include "coupling/machine/machine.h"
 #include "tests/support/test.h"
 
@@ -91,7 +92,7 @@ TEST(OwnModes, MultiplyAndSolveAsTheMatricesDo)
   ReducedFrame                  frame = frame_with_modal_damping();
   const std::optional<OwnModes> modes = coupling::turn_to_own_modes(frame);
   const MatrixXd M = with_body(frame.M, 2., 0.), B = with_body(frame.B, 10., 5.), C = with_body(frame.C, 0., 1e6);
-  const coupling::OwnModeBase base(M, B, C, *modes);
+  const coupling::OwnModeBase base(M, B, C, *modes, std::make_unique<coupling::DenseBase>(M, B, C));
   const VectorXd              x = VectorXd::Random(n + 1), f = 1e-3 * VectorXd::Random(n + 1);
   VectorXd                    y(n + 1);
   base.mass_times(x, y);
@@ -128,7 +129,11 @@ TEST(OwnModes, DoNotChangeTheMotionOfTheInterface)
     v[0]            = 1.;
     // The same motion: internal displacements of both are zero, velocities follow the interface.
     const MatrixXd &M = machine.model().reduced_frame()->M;
-    v.tail(m)         = -M.bottomRightCorner(m, m).ldlt().solve(M.bottomLeftCorner(m, n1) * v.head(n1));
+    EXPECT_EQ(M.isApprox(frame.M, 1e-3), !modal); // turned, or not
+    MatrixXd whole_M, B, C;
+    EXPECT_TRUE(machine.linear().dense_matrices(whole_M, B, C)); // for integrators in modes
+    EXPECT_EQ((whole_M - M).norm(), 0.);
+    v.tail(m) = -M.bottomRightCorner(m, m).ldlt().solve(M.bottomLeftCorner(m, n1) * v.head(n1));
     bdf.begin(0., VectorXd::Zero(n), v);
     for (int i = 0; i < 100; ++i)
       bdf.advance();
