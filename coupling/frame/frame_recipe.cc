@@ -168,6 +168,22 @@ public:
     add(name + ".through", through);
     add(name + ".normal", normal);
   }
+  void add(const std::string &name, const fem::SurfaceLoad &value)
+  {
+    const auto &[surfaces, force, pressure, place] = value;
+    add(name + ".surfaces", surfaces);
+    add(name + ".force", force);
+    add(name + ".pressure", pressure);
+  }
+  void add(const std::string &name, const fem::Prestress &value)
+  {
+    const auto &[acceleration, loads, factor, tie_rods, interface_motion, place] = value;
+    add(name + ".acceleration", acceleration);
+    add(name + ".loads", loads);
+    add(name + ".factor", factor);
+    add(name + ".tie_rods", tie_rods);
+    add(name + ".interface_motion", interface_motion);
+  }
   void add(const std::string &name, const fem::MeshOptions &value)
   {
     const auto &[size, surface_size, max_cells, gap, bodies, defeature, overlaps, curved, plates, layers, place] =
@@ -186,7 +202,7 @@ public:
   void add(const fem::FrameSpecification &value)
   {
     const auto &[cad, unit, mesh, material, materials, ratios, rayleigh_mass, rayleigh_stiffness, surfaces, supports,
-                 interfaces, masses, cuts, stress, parts, scripts, sew, place] = value;
+                 interfaces, masses, cuts, stress, parts, scripts, sew, place, prestress] = value;
     add_sources(cad);
     add("unit", unit);
     add("mesh", mesh);
@@ -203,6 +219,7 @@ public:
     add("stress", stress);
     add("sew", sew);
     add("parts", parts);
+    add("prestress", prestress); // last and only if there is one: other frames keep their keys
   }
 
   template <typename Number, int rows, int columns>

@@ -56,6 +56,7 @@ struct TieRod
   std::optional<double> length;                          ///< [m]; none: distance of the interfaces
   double                damping = 0., prestress = 0.;    ///< [N s/m], [N] in the tightened frame at rest
   std::string           material{};                      ///< "steel", for people
+  double                tension = 0.; ///< [N] whose geometric stiffness T / L resists motion across the rod
 
   double area() const;
   double stiffness(double length) const; ///< E A / L [N/m]
@@ -92,11 +93,12 @@ struct FrameJoint
 /// A frame of parts connected by joints.
 struct FrameOfParts
 {
-  std::vector<FramePart>  parts;
-  std::vector<FrameJoint> joints;
-  fem::ModalRatios        modal_damping_ratio; ///< zeta of modes of the joined frame, added to that of the parts
-  bool                    all_modes = false;   ///< retain all modes of the parts; else by the tolerance
-  std::string             place;
+  std::vector<FramePart>        parts;
+  std::vector<FrameJoint>       joints;
+  fem::ModalRatios              modal_damping_ratio; ///< zeta of modes of the joined frame, added to that of the parts
+  std::optional<fem::Prestress> prestress;           ///< weight, tie rods
+  bool                          all_modes = false;   ///< retain all modes of the parts; else by the tolerance
+  std::string                   place;
 
   const FramePart *find(const std::string &part) const; ///< null if there is none
 };

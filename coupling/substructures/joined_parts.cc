@@ -265,16 +265,6 @@ void tell_errors(ReducedFrame &whole, const VectorXd &omega, const VectorXd &err
                              percent(worst) + " at most (first-order estimate)");
 }
 
-/// Rows of the union that stay coordinates.
-MatrixXd stayed(const MatrixXd &rows, const WeldedCoordinates &welded)
-{
-  MatrixXd kept_rows(welded.G.cols(), rows.cols());
-  for (std::size_t i = 0; i < welded.kept.size(); ++i)
-    if (welded.kept[i] >= 0)
-      kept_rows.row(welded.kept[i]) = rows.row(Index(i));
-  return kept_rows;
-}
-
 /// A with zeros at further entries of `other`: coordinates that only mass couples stay together, as modes and
 /// interface.
 Eigen::SparseMatrix<double> with_pattern(const MatrixXd &A, const MatrixXd &other)

@@ -85,17 +85,14 @@ Vector6 pressing(const FrameJoint &joint)
   return weights;
 }
 
-/// C with springs of its own size against the rigid motions that no support resists; forces in equilibrium do not load
-/// them.
-MatrixXd held(const MatrixXd &C, const MatrixXd &rigid)
+/// C without the elasticity of rods.
+MatrixXd of_tightening(const FrameOfParts &frame, const SprungUnion &all)
 {
-  const double               size = C.diagonal().mean();
-  const MatrixXd             R    = rigid * rigid.colwise().norm().cwiseInverse().asDiagonal();
-  const SymmetricEigenSolver energy(R.transpose() * C * R);
-  constexpr double           free_energy = 1e-12; // of a rigid motion, against a spring of the size of others
-  const auto                 n_free      = (energy.eigenvalues().array() <= free_energy * size).count();
-  const MatrixXd             free        = R * energy.eigenvectors().leftCols(n_free);
-  return C + size * free * free.transpose();
+  MatrixXd C = all.C;
+  for (std::size_t j = 0; j < frame.joints.size(); ++j)
+    if (frame.joints[j].kind == JointKind::tie_rod)
+      C -= all.springs[j].R.transpose() * all.springs[j].K * all.springs[j].R;
+  return C;
 }
 
 } // namespace
@@ -115,23 +112,37 @@ SprungUnion sprung(const FrameOfParts &frame, const PartUnion &parts)
     {
       add_mass(all, joint, parts);
       all.tightening -= joint.rod.prestress * spring.R.transpose();
+      if (joint.rod.tension != 0.)
+        all.C += transverse_stiffness(joint, parts);
     }
   }
   return all;
 }
 
+MatrixXd held(const MatrixXd &C, const MatrixXd &rigid)
+{
+  const double               size = C.diagonal().mean();
+  const MatrixXd             R    = rigid * rigid.colwise().norm().cwiseInverse().asDiagonal();
+  const SymmetricEigenSolver energy(R.transpose() * C * R);
+  constexpr double           free_energy = 1e-12; // of a rigid motion, against a spring of the size of others
+  const auto                 n_free      = (energy.eigenvalues().array() <= free_energy * size).count();
+  const MatrixXd             free        = R * energy.eigenvectors().leftCols(n_free);
+  return C + size * free * free.transpose();
+}
+
+VectorXd tightened(const FrameOfParts &frame, const SprungUnion &all, const MatrixXd &G, const MatrixXd &rigid)
+{
+  if (all.tightening.isZero(0.))
+    return VectorXd::Zero(all.C.rows());
+  const MatrixXd C = of_tightening(frame, all);
+  return G * held(G.transpose() * C * G, rigid).ldlt().solve(G.transpose() * all.tightening);
+}
+
 std::vector<JointPreload> preloads_of(const FrameOfParts &frame, const PartUnion &parts, const SprungUnion &all,
                                       const MatrixXd &G, const MatrixXd &rigid)
 {
-  MatrixXd C = all.C; // without the elasticity of rods
-  for (std::size_t j = 0; j < frame.joints.size(); ++j)
-    if (frame.joints[j].kind == JointKind::tie_rod)
-      C -= all.springs[j].R.transpose() * all.springs[j].K * all.springs[j].R;
-  const bool     tightened = !all.tightening.isZero(0.);
-  const VectorXd q_0 =
-      tightened ? VectorXd(G * held(G.transpose() * C * G, rigid).ldlt().solve(G.transpose() * all.tightening))
-                : VectorXd(VectorXd::Zero(parts.size()));
-  const VectorXd            needed = C * q_0 - all.tightening;
+  const VectorXd            q_0    = tightened(frame, all, G, rigid);
+  const VectorXd            needed = of_tightening(frame, all) * q_0 - all.tightening;
   std::vector<JointPreload> preloads;
   for (std::size_t j = 0; j < frame.joints.size(); ++j)
   {

@@ -22,16 +22,23 @@ struct SprungUnion
 
 SprungUnion sprung(const FrameOfParts &frame, const PartUnion &parts);
 
+/// C with springs of its own size against the rigid motions that no support resists; forces in equilibrium do not load
+/// them.
+Eigen::MatrixXd held(const Eigen::MatrixXd &C, const Eigen::MatrixXd &rigid);
+
 /**
- * The static preload of every joint: the parts, with bolts and without the elasticity of rods, deform under the tensile
- * forces of the rods,
+ * Deflection q_0 [n] under the tensile forces of the rods, which are constant during tightening: of the parts, with
+ * bolts and without the elasticity of rods,
  *
- *     (C - sum R_r^T K_r R_r) q_0 = f_0,    preload = C_2. q_0 - f_0   at the second interface,
- *
- * which are constant during tightening.
+ *     (C - sum R_r^T K_r R_r) q_0 = f_0.
  *
  * @param rigid  [n_j x 6] rigid-body modes of the joined frame; f_0 does no work along them.
  */
+Eigen::VectorXd tightened(const FrameOfParts &frame, const SprungUnion &sprung, const Eigen::MatrixXd &G,
+                          const Eigen::MatrixXd &rigid);
+
+/// The static preload of every joint: that matrix times q_0, less f_0, at the second interface.
+/// @param rigid  see tightened().
 std::vector<JointPreload> preloads_of(const FrameOfParts &frame, const PartUnion &parts, const SprungUnion &sprung,
                                       const Eigen::MatrixXd &G, const Eigen::MatrixXd &rigid);
 

@@ -68,6 +68,15 @@ Eigen::VectorXd elongation(const FrameJoint &joint, const PartUnion &parts)
          d.normalized();
 }
 
+Eigen::MatrixXd transverse_stiffness(const FrameJoint &joint, const PartUnion &parts)
+{
+  const auto     n = parts.size();
+  const MatrixXd R = (motions_of(parts.at(joint.between[1]), n) - motions_of(parts.at(joint.between[0]), n)).topRows(3);
+  const Vector3d d = span(joint, parts).normalized();
+  const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - d * d.transpose();
+  return joint.rod.tension / span(joint, parts).norm() * R.transpose() * P * R;
+}
+
 double length_of(const FrameJoint &joint, const PartUnion &parts)
 {
   return joint.rod.length.value_or(span(joint, parts).norm());

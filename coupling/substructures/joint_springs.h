@@ -28,6 +28,9 @@ JointSpring spring_of(const FrameJoint &joint, const PartUnion &parts);
 /// Unit elongation of a tie rod [n], d^T (u_2 - u_1), d from the first end to the second.
 Eigen::VectorXd elongation(const FrameJoint &joint, const PartUnion &parts);
 
+/// Geometric stiffness T / L (I - d d^T) of a tie rod of tension T between its ends [n x n].
+Eigen::MatrixXd transverse_stiffness(const FrameJoint &joint, const PartUnion &parts);
+
 /// Length of a tie rod [m]: the one given, or the distance of its ends.
 double length_of(const FrameJoint &joint, const PartUnion &parts);
 

@@ -74,7 +74,7 @@ void add_bolts(Ingredients &recipe, const BoltedJoint &value)
 
 void add_tie_rod(Ingredients &recipe, const TieRod &value)
 {
-  const auto &[diameter, E, rho, length, damping, prestress, material] = value;
+  const auto &[diameter, E, rho, length, damping, prestress, material, tension] = value; // tension: of the prestress
   recipe.add("diameter", diameter);
   recipe.add("E", E);
   recipe.add("rho", rho);
@@ -119,6 +119,12 @@ Recipe recipe_of(const FrameOfParts &frame, const ReductionOptions &options)
   Ingredients whole(recipe, "joined.");
   add_ratios(whole, frame.modal_damping_ratio);
   whole.add("all modes", frame.all_modes);
+  if (frame.prestress) // others keep their keys
+  {
+    whole.add("prestress.acceleration", Eigen::Vector3d(frame.prestress->acceleration.data()));
+    whole.add("prestress.factor", frame.prestress->factor);
+    whole.add("prestress.tie rods", frame.prestress->tie_rods);
+  }
   return recipe;
 }
 

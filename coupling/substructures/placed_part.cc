@@ -53,7 +53,8 @@ void turn_three(MatrixXd &S, const fem::Interface &interface, int first, const M
     }
 }
 
-/// q_part = S q.
+} // namespace
+
 MatrixXd turned_coordinates(const ReducedFrame &part, const Matrix3d &Q)
 {
   MatrixXd S = MatrixXd::Identity(part.M.rows(), part.M.rows());
@@ -64,6 +65,9 @@ MatrixXd turned_coordinates(const ReducedFrame &part, const Matrix3d &Q)
   }
   return S;
 }
+
+namespace
+{
 
 void turn_picture(ReducedFrame &part, const Placement &placement, const MatrixXd &S)
 {
@@ -130,6 +134,20 @@ ReducedFrame placed(ReducedFrame part, const std::string &name, const Placement 
   for (auto &solid : part.facts.parts)
     solid.name = solid.name.empty() ? name : name + ": " + solid.name;
   return part;
+}
+
+std::vector<ReducedFrame> all_placed(std::vector<ReducedFrame> parts, const FrameOfParts &frame)
+{
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    try
+    {
+      parts[i] = placed(std::move(parts[i]), frame.parts[i].name, frame.parts[i].placement);
+    }
+    catch (const std::invalid_argument &error)
+    {
+      throw std::invalid_argument(frame.parts[i].place + ": " + error.what());
+    }
+  return parts;
 }
 
 } // namespace gestell::coupling

@@ -19,4 +19,10 @@ namespace gestell::coupling
  */
 ReducedFrame placed(ReducedFrame part, const std::string &name, const Placement &placement);
 
+/// All parts of a frame; messages begin with their place.
+std::vector<ReducedFrame> all_placed(std::vector<ReducedFrame> parts, const FrameOfParts &frame);
+
+/// S of a part in its own coordinates.
+Eigen::MatrixXd turned_coordinates(const ReducedFrame &part, const Eigen::Matrix3d &Q);
+
 } // namespace gestell::coupling

@@ -6,8 +6,12 @@
 #include "coupling/substructures/joined_parts.h"
 #include "coupling/substructures/parts_recipe.h"
 #include "coupling/substructures/placed_part.h"
+#include "coupling/substructures/prestressed_parts.h"
+#include "fem/values/number_text.h"
 
-#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace gestell::coupling
 {
@@ -34,28 +38,29 @@ ReducedFrame reduced_part(const FramePart &part, const ReductionOptions &options
       .frame;
 }
 
-ReducedFrame where_it_stands(ReducedFrame reduced, const FramePart &part)
-{
-  try
-  {
-    return placed(std::move(reduced), part.name, part.placement);
-  }
-  catch (const std::invalid_argument &error)
-  {
-    throw std::invalid_argument(part.place + ": " + error.what());
-  }
-}
-
 } // namespace
 
-ReducedFrame reduced_frame_of_parts(const FrameOfParts &frame, const ReductionOptions &options,
+ReducedFrame reduced_frame_of_parts(const FrameOfParts &given, const ReductionOptions &options,
                                     const Progress &progress)
 {
-  auto parts =
-      equal_parts_once(frame, options, [&](const FramePart &part) { return reduced_part(part, options, progress); });
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    parts[i] = where_it_stands(std::move(parts[i]), frame.parts[i]);
-  const JoinedParts joined = join_parts(parts, frame);
+  const auto reduced = [&](const FrameOfParts &description)
+  {
+    return equal_parts_once(description, options,
+                            [&](const FramePart &part) { return reduced_part(part, options, progress); });
+  };
+  FrameOfParts             frame = given;
+  auto                     parts = reduced(frame);
+  std::vector<std::string> statements;
+  if (given.prestress)
+  {
+    frame         = prestressed(given, parts);
+    auto stressed = reduced(frame);
+    statements.push_back("prestress: the buckling factor is at most " +
+                         rounded(buckling_bound(given, parts, frame, stressed)));
+    parts = std::move(stressed);
+  }
+  JoinedParts joined = join_parts(all_placed(std::move(parts), frame), frame);
+  joined.facts.statements.insert(joined.facts.statements.end(), statements.begin(), statements.end());
   return completed(frame_service().reduce(joined.matrices, joined_options(frame, joined, options),
                                           named_after("joined parts", progress)),
                    joined);

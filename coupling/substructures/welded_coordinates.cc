@@ -137,4 +137,13 @@ WeldedCoordinates weld(const FrameOfParts &frame, const PartUnion &parts, const 
   return welded;
 }
 
+MatrixXd stayed(const MatrixXd &rows, const WeldedCoordinates &welded)
+{
+  MatrixXd kept_rows(welded.G.cols(), rows.cols());
+  for (std::size_t i = 0; i < welded.kept.size(); ++i)
+    if (welded.kept[i] >= 0)
+      kept_rows.row(welded.kept[i]) = rows.row(Index(i));
+  return kept_rows;
+}
+
 } // namespace gestell::coupling

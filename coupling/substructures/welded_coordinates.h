@@ -17,6 +17,9 @@ struct WeldedCoordinates
   std::vector<int> kept; ///< [n] column of a coordinate of q in G, -1: it is eliminated
 };
 
+/// Rows of the union that stay coordinates.
+Eigen::MatrixXd stayed(const Eigen::MatrixXd &rows, const WeldedCoordinates &welded);
+
 /// @throws std::invalid_argument if interfaces are farther apart than the tolerance of their joint; without one a
 /// thousandth of the longest distance between interfaces or points of the two parts.
 WeldedCoordinates weld(const FrameOfParts &frame, const PartUnion &parts, const std::vector<ReducedFrame> &of);

@@ -3,16 +3,19 @@
 #include "fem/values/frame_specification.h"
 #include "fem/values/mesh.h"
 
+#include <Eigen/Core>
+
 #include <vector>
 
 namespace gestell::fem
 {
 
-/// The materials of a frame and the material of each cell.
+/// The materials of a frame and the material of each cell, with the displacement that prestresses them.
 struct CellMaterials
 {
   std::vector<Material> materials; ///< of each solid
   std::vector<int>      of_cell;   ///< index into materials
+  Eigen::Matrix3Xd      u0{};      ///< [3 x n_nodes] under the prestressing loads [m], or empty
 
   const Material &operator[](std::size_t cell) const { return materials[of_cell[cell]]; }
 };

@@ -144,7 +144,7 @@ FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, co
     if (!touches)
       continue;
     divides                 = true;
-    const Eigen::MatrixXd C = stiffness_matrix(values.of(cell), materials[cell]);
+    const Eigen::MatrixXd C = tangent_stiffness(values.of(cell), mesh, materials, cell);
     for (int a = 0; a < n; ++a)
       if (below[nodes[a]])
         for (int b = 0; b < n; ++b)

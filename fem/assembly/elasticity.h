@@ -19,6 +19,24 @@ namespace gestell::fem
  */
 Eigen::MatrixXd stiffness_matrix(const PointValues &cell, const Material &material);
 
+/**
+ * Geometric stiffness of functions N_a under the stress sigma of a displacement u in isotropic elastic material,
+ *
+ *     K_(a i)(b j) = delta_ij int grad N_a . sigma grad N_b dV,     sigma = lambda tr(e) I + 2 mu e,   e = sym grad u,
+ *
+ * [3 n x 3 n, N/m]; symmetric to the last bit, and zero for translations.
+ *
+ * @param u  [3 x k] nodal values of the first k <= n functions.
+ *
+ * Source: Bathe, Finite Element Procedures, 2014, section 6.2.3.
+ */
+Eigen::MatrixXd geometric_stiffness(const PointValues &cell, const Material &material,
+                                    const Eigen::Ref<const Eigen::Matrix3Xd> &u);
+
+/// Stiffness of a cell about its prestressed state: with CellMaterials::u0 both are added.
+Eigen::MatrixXd tangent_stiffness(const PointValues &at, const QuadraticMesh &mesh, const CellMaterials &materials,
+                                  int cell);
+
 /// Consistent mass rho int N_a N_b dV [kg] of every direction [n x n].
 Eigen::MatrixXd mass_matrix(const PointValues &cell, double rho);
 

@@ -264,7 +264,7 @@ RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materia
   const auto  matrices = [&](int cell) -> CellMatrices
   {
     const PointValues &at = cells.of(cell);
-    return {stiffness_matrix(at, materials[cell]), mass_matrix(at, materials[cell].rho)};
+    return {tangent_stiffness(at, mesh, materials, cell), mass_matrix(at, materials[cell].rho)};
   };
   MatrixSums sums = raised.sum(
       whole(mesh, raised), [&](int cell) { return cells.nodes(cell); }, matrices);

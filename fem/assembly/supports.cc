@@ -61,7 +61,7 @@ Eigen::SparseMatrix<double> summed_rows(const std::vector<int> &output_of, int n
         own.push_back(3 * mesh.nodes(cell)[a] + d);
     if (std::all_of(own.begin(), own.end(), [&](int i) { return output_of[i] < 0; }))
       continue;
-    const Eigen::MatrixXd C = stiffness_matrix(values.of(cell), materials[cell]);
+    const Eigen::MatrixXd C = tangent_stiffness(values.of(cell), mesh, materials, cell);
     for (std::size_t i = 0; i < own.size(); ++i)
       if (const int output = output_of[own[i]]; output >= 0)
         for (std::size_t j = 0; j < own.size(); ++j)

@@ -43,13 +43,14 @@ std::set<int> triangles_of(const Mesh &mesh, const std::vector<std::string> &sur
   return triangles;
 }
 
-/// Area, int x dA and int N_a N_b dA of a face of n nodes.
+/// Area, int x dA, int N_a N_b dA and int N_a n dA of a face of n nodes.
 template <int n>
 struct FaceIntegrals
 {
   double                      area   = 0.;
   Eigen::Vector3d             moment = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, n, n> mass   = Eigen::Matrix<double, n, n>::Zero();
+  Eigen::Matrix<double, 3, n> normal = Eigen::Matrix<double, 3, n>::Zero();
 };
 
 template <std::size_t n>
@@ -63,10 +64,12 @@ FaceIntegrals<int(n)> integrals(const QuadraticMesh &mesh, const std::array<int,
   for (const auto &point : rule)
   {
     const Eigen::Matrix<double, 3, 2> tangents = X * point.dN;
-    const double dA = point.weight * Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1))).norm();
+    const Eigen::Vector3d             normal = Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1)));
+    const double                      dA     = point.weight * normal.norm();
     result.area += dA;
     result.moment += dA * X * point.N;
     result.mass += dA * point.N * point.N.transpose();
+    result.normal += point.weight * normal * point.N.transpose();
   }
   result.mass = 0.5 * (result.mass + result.mass.transpose()).eval(); // symmetric to the last bit
   return result;
@@ -118,11 +121,15 @@ SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int
   { return static_cast<int>(std::lower_bound(patch.nodes.begin(), patch.nodes.end(), node) - patch.nodes.begin()); };
 
   std::vector<Eigen::Triplet<double>> entries;
-  const auto                          add = [&](const auto &face, const auto &mass)
+  patch.normal   = Eigen::Matrix3Xd::Zero(3, Eigen::Index(patch.nodes.size()));
+  const auto add = [&](const auto &face, const auto &of)
   {
     for (std::size_t a = 0; a < face.size(); ++a)
+    {
+      patch.normal.col(local(face[a])) += of.normal.col(Eigen::Index(a));
       for (std::size_t b = 0; b < face.size(); ++b)
-        entries.emplace_back(local(face[a]), local(face[b]), mass(a, b));
+        entries.emplace_back(local(face[a]), local(face[b]), of.mass(a, b));
+    }
   };
   for (const std::array<int, 6> &face : patch.faces)
   {
@@ -137,10 +144,10 @@ SurfacePatch surface_patch(const QuadraticMesh &mesh, std::vector<std::array<int
     const auto triangle = integrals(mesh, face, face_rules().triangle);
     patch.area += triangle.area;
     patch.centroid += triangle.moment;
-    add(face, triangle.mass);
+    add(face, triangle);
   }
   for (const std::array<int, 9> &quad : patch.quads)
-    add(quad, integrals(mesh, quad, face_rules().quadrilateral).mass);
+    add(quad, integrals(mesh, quad, face_rules().quadrilateral));
   patch.centroid /= patch.area;
   patch.S.resize(patch.nodes.size(), patch.nodes.size());
   patch.S.setFromTriplets(entries.begin(), entries.end());

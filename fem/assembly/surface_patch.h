@@ -20,6 +20,7 @@ struct SurfacePatch
   std::vector<std::array<int, 9>> quads;  ///< quadrilaterals, FE_Q(2)
   Eigen::SparseMatrix<double>     S;      ///< int N_a N_b dA [m^2], over `nodes`
   Eigen::VectorXd                 weight; ///< int N_a dA = S 1 [m^2]; 0 at corners, a third of the area at middles
+  Eigen::Matrix3Xd                normal; ///< [3 x nodes] int N_a n dA [m^2], n outward
   double                          area     = 0.;                      ///< [m^2]
   Eigen::Vector3d                 centroid = Eigen::Vector3d::Zero(); ///< of the area [m]
 };

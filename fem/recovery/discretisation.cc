@@ -8,6 +8,7 @@
 #include "fem/assembly/interfaces.h"
 #include "fem/assembly/mass_integrals.h"
 #include "fem/assembly/mesh_ties.h"
+#include "fem/assembly/prestress.h"
 #include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/rigid_motions.h"
 #include "fem/assembly/sparse_sum.h"
@@ -122,6 +123,7 @@ struct Ingredients
   const std::vector<SupportedPatch> &supports;
   const AffineConstraints           &affine;
   const std::vector<Interface>      &nodes;
+  const SparseMatrix                &geometric; ///< stiffness [n x n], or without entries
 };
 
 /// Mass, centre and the load of a unit acceleration: of the cells, and with all that is attached.
@@ -142,9 +144,9 @@ void weigh(const Ingredients &of, const NodalMasses &cells, const Eigen::Vector3
 /// M, B, C and what is read off them.
 void add_matrices(const Ingredients &of, CellSums cells, FrameMatrices &frame)
 {
-  const auto &[specification, mesh, materials, supports, affine, nodes] = of;
-  const Eigen::Vector3d middle                                          = middle_of_nodes(mesh);
-  const NodalMasses     masses                                          = nodal_masses(mesh, materials, middle);
+  const auto &[specification, mesh, materials, supports, affine, nodes, geometric] = of;
+  const Eigen::Vector3d middle                                                     = middle_of_nodes(mesh);
+  const NodalMasses     masses = nodal_masses(mesh, materials, middle);
   weigh(of, masses, middle, frame);
   for (FrameOutput &output :
        support_forces(supports, mesh, materials, affine, masses.mass, specification.rayleigh_stiffness))
@@ -157,6 +159,8 @@ void add_matrices(const Ingredients &of, CellSums cells, FrameMatrices &frame)
   frame.M         = std::move(sums.M);
   if (cells == CellSums::of_frame)
     frame.facts.rigid_energy = rigid_energy_share(frame.C, frame.rigid_motions, mesh, affine);
+  if (geometric.nonZeros() > 0)
+    add(frame.C, geometric);
   frame.B = foundations(supports, &Support::damping, affine);
   if (specification.rayleigh_stiffness > 0.)
     add(frame.B, specification.rayleigh_stiffness * frame.C);
@@ -205,15 +209,18 @@ RigidNodes rigid_nodes(const std::vector<SupportedPatch> &supports, const std::v
   return rigid;
 }
 
-Discretisation discretise(const Mesh &mesh, const FrameSpecification &specification, CellSums cells)
+Discretisation discretise(const Mesh &mesh, const FrameSpecification &specification, CellSums cells,
+                          const Eigen::VectorXd &q0 = {})
 {
-  const CellMaterials               materials = cell_materials(mesh, specification);
+  CellMaterials                     materials = cell_materials(mesh, specification);
   const QuadraticMesh               quadratic = quadratic_mesh(mesh);
   const std::vector<SupportedPatch> supports  = find_supports(mesh, quadratic, specification.supports);
   MultipointConstraints             constraints(quadratic.n_nodes());
   const std::vector<CoupledPatch> coupled = couple_patches(mesh, quadratic, coupled_nodes(specification), constraints);
   constraints                             = constrain(quadratic, supports, coupled, std::move(constraints));
   const AffineConstraints affine(constraints);
+  if (q0.size() > 0)
+    materials.u0 = affine.expand(q0).reshaped(3, quadratic.n_nodes());
 
   FrameMatrices frame;
   frame.n_cells                      = mesh.n_cells();
@@ -233,14 +240,27 @@ Discretisation discretise(const Mesh &mesh, const FrameSpecification &specificat
   for (const CutSpecification &cut : specification.cuts)
     frame.outputs.push_back(cut_force(cut, quadratic, materials, affine, specification.rayleigh_stiffness));
 
-  add_matrices({specification, quadratic, materials, supports, affine, nodes}, cells, frame);
+  Eigen::VectorXd load;
+  SparseMatrix    geometric;
+  if (const auto &prestress = specification.prestress)
+  {
+    const PrestressLoads loads = prestress_loads(*prestress, specification.masses, mesh, quadratic, materials, nodes);
+    load                       = affine.gather(loads.on_nodes) + loads.on_masses(affine.n_coordinates());
+    if (q0.size() > 0)
+      geometric = geometric_stiffness(quadratic, materials, affine, coupled, nodes, loads);
+  }
+  add_matrices({specification, quadratic, materials, supports, affine, nodes, geometric}, cells, frame);
 
   frame.picture = skin_picture(quadratic, affine);
   if (specification.stress)
     frame.stress = skin_stress(
         quadratic, [&](int cell) -> const Material & { return materials[cell]; }, affine,
         rigid_nodes(supports, coupled));
-  return {std::move(frame), std::make_shared<const MeshError>(quadratic, materials, affine)};
+  return {std::move(frame),
+          std::make_shared<const MeshError>(quadratic, materials, affine),
+          std::move(load),
+          std::move(geometric),
+          {}};
 }
 
 } // namespace
@@ -250,9 +270,10 @@ FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specificati
   return discretise_with_mesh_error(mesh, specification).matrices;
 }
 
-Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification)
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification,
+                                          const Eigen::VectorXd &q0)
 {
-  return discretise(mesh, specification, CellSums::of_frame);
+  return discretise(mesh, specification, CellSums::of_frame, q0);
 }
 
 Discretisation discretise_for_parts(const Mesh &mesh, const FrameSpecification &specification)

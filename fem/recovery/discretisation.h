@@ -32,8 +32,16 @@ struct Discretisation
 {
   FrameMatrices                    matrices;
   std::shared_ptr<const MeshError> mesh_error;
+  Eigen::VectorXd                  prestress_load{}; ///< [n] of FrameSpecification::prestress
+  SparseMatrix                     geometric{};      ///< stiffness contained in C, or empty
+  /// [n1 x n1] added to C in the interface coordinates of a prestressed part, so that it can float; or empty.
+  Eigen::MatrixXd balance{};
 };
-Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification);
+
+/// @param q0  [n] static deflection under the prestress: C, and what is read off it, then contains the geometric
+///            stiffness of its stresses, and beta of Rayleigh damping acts on both.  Empty: unstressed.
+Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecification &specification,
+                                          const Eigen::VectorXd &q0 = {});
 
 /// The same without the sums over cells, which MeshError::parts() makes part by part: M, B and C are those of attached
 /// masses and of foundations.

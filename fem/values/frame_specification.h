@@ -118,6 +118,26 @@ struct CutSpecification
   std::string place;
 };
 
+/// A static load, spread evenly over surfaces: a total force, and a pressure on the undeformed surface.
+struct SurfaceLoad
+{
+  std::vector<std::string> surfaces;
+  Vector3                  force{};       ///< [N]
+  double                   pressure = 0.; ///< [Pa], pushes into the solid
+  std::string              place;
+};
+
+/// Static loads that stress a frame before it vibrates.
+struct Prestress
+{
+  Vector3                  acceleration{}; ///< [m/s^2] of gravity
+  std::vector<SurfaceLoad> loads;
+  double                   factor   = 1.;    ///< of all loads
+  bool                     tie_rods = false; ///< of joints between parts
+  std::vector<double> interface_motion; ///< of a part: its given interface coordinates, in the order of q; or empty
+  std::string         place;
+};
+
 /// Treatment of the common part of overlapping solids.
 enum class Overlaps
 {
@@ -169,6 +189,7 @@ struct FrameSpecification
   Scripts                                scripts = Scripts::harmless;
   double                                 sew     = 0.; ///< [m], as in CadSource
   std::string                            place;        ///< "press.toml:12: frame"
+  std::optional<Prestress>               prestress{};
 };
 
 } // namespace gestell::fem

@@ -4,12 +4,12 @@
 #include "coupling/frame/mesh_extrapolation.h"
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/modes/modes.h"
+#include "coupling/plugin/frame/prestressed.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/mesh/cell_measures.h"
 #include "fem/mesh/curved_sides.h"
 #include "fem/mesh/memory_estimate.h"
 #include "fem/mesh/mesher.h"
-#include "fem/recovery/discretisation.h"
 #include "fem/recovery/mesh_error.h"
 #include "fem/recovery/refinement.h"
 #include "fem/values/vector3.h"
@@ -140,8 +140,9 @@ Computed compute(const fem::FrameSpecification &specification, const fem::Mesh &
 {
   if (progress)
     progress("assembly", -1.);
-  const auto [matrices, mesh_error] = fem::discretise_with_mesh_error(mesh, specification);
-  ReducedModel reduced              = reduce_with_basis(matrices, reduction, progress);
+  const auto [matrices, mesh_error, load, geometric, balance] =
+      discretised(mesh, specification, reduction.factor, progress);
+  ReducedModel reduced = reduce_with_basis(matrices, reduction, progress);
   Computed     result;
   result.frame      = std::move(reduced.frame);
   result.mesh_error = mesh_error;

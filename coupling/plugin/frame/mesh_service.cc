@@ -4,6 +4,7 @@
 #include "coupling/factors/petsc_factor.h"
 #include "coupling/plugin/frame/converge_mesh.h"
 #include "coupling/plugin/frame/mesh_statement.h"
+#include "coupling/plugin/frame/prestressed.h"
 #include "coupling/reduction/parts/parted_frame.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/assembly/attached_masses.h"
@@ -136,10 +137,12 @@ void add_mesh_statement(ReducedModel &reduced, const fem::Discretisation &of, co
 MeshService::Unreduced assemble(const fem::Mesh &mesh, const fem::FrameSpecification &frame,
                                 const ReductionOptions &options, const Progress &progress, bool keeps)
 {
-  fem::Discretisation discretisation = fem::discretise_with_mesh_error(mesh, frame);
+  fem::Discretisation discretisation = discretised(mesh, frame, options.factor, progress);
   fem::FrameMatrices &matrices       = discretisation.matrices;
   keeps                              = keeps || may_be_raised(*discretisation.mesh_error, double(matrices.M.rows()));
   ReducedModel reduced               = reduce_with_basis(matrices, options, progress, keeps ? nullptr : &matrices);
+  if (const auto &D = discretisation.balance; D.size() > 0)
+    reduced.frame.C.topLeftCorner(D.rows(), D.cols()) -= D;
   add_mesh_statement(reduced, discretisation, mesh, progress);
   return {std::move(discretisation.matrices), std::move(reduced.frame)};
 }
@@ -217,7 +220,7 @@ public:
   {
     use_one_blas_thread();
     const fem::Mesh          mesh   = fem::make_mesh(frame, progress);
-    const fem::FrameMatrices raised = fem::raised_matrices(fem::discretise_with_mesh_error(mesh, frame), frame);
+    const fem::FrameMatrices raised = fem::raised_matrices(discretised(mesh, frame, options.factor, progress), frame);
     return reduce_frame(raised, options, progress);
   }
 

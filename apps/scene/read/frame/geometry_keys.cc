@@ -22,6 +22,11 @@ Key surfaces_key(const std::string &meaning)
 
 } // namespace
 
+Key prestress_factor_key()
+{
+  return key::number("factor", kind::number, "factor of these loads").by_default(1.);
+}
+
 const std::vector<Key> &mesh_keys()
 {
   using Mesh = fem::MeshOptions;
@@ -72,6 +77,22 @@ const std::vector<Key> &mesh_keys()
   return keys;
 }
 
+const std::vector<Key> &prestress_keys()
+{
+  static const std::vector<Key> keys = {
+      key::truth("gravity", false, "weight of the frame and its masses, by `gravity` of the scene"),
+      key::composed(
+          "loads", Key::Form::tables, kind::number,
+          {one_surface_key(), surfaces_key("loaded surfaces"),
+           key::vector("force", kind::force, "total force, spread evenly over the area").by_default("[0, 0, 0]"),
+           key::number("pressure", kind::pressure, "pressure into the solid").by_default(0.)},
+          "static loads on surfaces, `[{ surface = \"table\", force = [0, 0, \"-500 kN\"] }]`; they keep their "
+          "direction")
+          .by_default("none"),
+      prestress_factor_key()};
+  return keys;
+}
+
 const std::vector<Key> &frame_keys()
 {
   static const std::vector<Key> keys = {
@@ -107,6 +128,12 @@ const std::vector<Key> &frame_keys()
       key::table("damping", damping_keys(),
                  "modal damping ratios, `{ ratio = 0.02 }`, or Rayleigh damping by the ratios at two frequencies, `{ "
                  "rayleigh = [{ frequency = \"20 Hz\", ratio = 0.01 }, { frequency = \"500 Hz\", ratio = 0.02 }] }`")
+          .by_default("none"),
+      key::table(
+          "prestress", prestress_keys(),
+          "static loads whose stresses stiffen or soften the frame (geometric stiffness), `{ gravity = true }`: in "
+          "modes, runs and steady states. A line of the run gives the buckling factor; a factor of 1 or less is "
+          "an error. Displacements count from the frame under `loads`; its weight also acts as a load of the run")
           .by_default("none"),
       key::plain("parts", Key::Form::whole,
                  "number of parts, at most 64, into which the mesh is cut; they are reduced in separate processes and "

@@ -9,6 +9,8 @@ namespace gestell::apps
 /// [frame.surface.NAME] and the other tables.
 const std::vector<Key> &frame_keys();
 const std::vector<Key> &mesh_keys();
+const std::vector<Key> &prestress_keys();
+Key                     prestress_factor_key();
 const std::vector<Key> &surface_keys();
 const std::vector<Key> &support_keys();
 const std::vector<Key> &interface_keys();

@@ -15,6 +15,9 @@ FrameRequest read_frame(const SceneTable &scene);
 /// Reads [frame] of a frame made from CAD or a mesh.
 fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const SceneTable &scene);
 
+/// Reads what `prestress` of all frames contains.
+fem::Prestress read_prestress(const SceneTable &prestress, const SceneTable &scene);
+
 /// Reads [frame] of several parts and their joints.
 coupling::FrameOfParts read_frame_parts(const SceneTable &frame, const SceneTable &scene);
 

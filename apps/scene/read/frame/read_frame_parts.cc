@@ -16,9 +16,10 @@ namespace gestell::apps
 namespace
 {
 
-std::vector<Key> without_reduced(std::vector<Key> keys)
+std::vector<Key> without_those_of_the_whole(std::vector<Key> keys)
 {
-  keys.erase(std::remove_if(keys.begin(), keys.end(), [](const Key &key) { return key.name == "reduced"; }),
+  keys.erase(std::remove_if(keys.begin(), keys.end(),
+                            [](const Key &key) { return key.name == "reduced" || key.name == "prestress"; }),
              keys.end());
   for (Key &key : keys)
     if (key.name == "cad")
@@ -38,6 +39,13 @@ const std::vector<Key> &parts_frame_keys()
                  "modal damping ratios of the joined frame, `{ ratio = 0.02 }`, in addition to the damping of the "
                  "parts; `rayleigh` is a key of the parts")
           .by_default("that of the parts"),
+      key::table(
+          "prestress",
+          {key::truth("gravity", false, "weight of the frame and its masses, by `gravity` of the scene"),
+           key::truth("tie_rods", false, "forces of the tie rods, `prestress` of the joints"), prestress_factor_key()},
+          "static loads whose stresses stiffen or soften the parts and the tie rods, as for a frame of one part: "
+          "`{ tie_rods = true }`")
+          .by_default("none"),
       key::choice("modes", {"by tolerance", "all"}, true,
                   "modes of the joined parts with the interfaces of the mechanism fixed: as many as `[reduction]` "
                   "requires, or `\"all\"` modes of the reduced parts, which changes only the coordinates")};
@@ -47,7 +55,7 @@ const std::vector<Key> &parts_frame_keys()
 const std::vector<Key> &frame_part_keys()
 {
   static const std::vector<Key> keys = joined(
-      {without_reduced(frame_keys()),
+      {without_those_of_the_whole(frame_keys()),
        {key::named("same_as", "an equal part in another position, given only with `placement`. Equal parts are reduced "
                               "once, even without this key")
             .by_default("`cad`"),
@@ -301,6 +309,13 @@ FrameOfParts read_frame_parts(const SceneTable &any, const SceneTable &scene)
     parts.joints.push_back(read_frame_joint(table, scene));
   parts.all_modes = frame.choice("modes") == "all";
   read_whole_damping(frame, parts);
+  if (const auto prestress = frame.optional_table("prestress"))
+  {
+    parts.prestress           = read_prestress(*prestress, scene);
+    parts.prestress->tie_rods = prestress->truth("tie_rods");
+    if (!parts.prestress->tie_rods && parts.prestress->acceleration == fem::Vector3{})
+      throw prestress->error("has no load; give it tie_rods = true, or gravity = true and the scene a 'gravity'");
+  }
   if (parts.parts.size() < 2)
     throw frame.error("has only one part; write a frame of one part as [frame] cad = ...");
   coupling::require_joints(parts);

@@ -1,0 +1,126 @@
+#include "coupling/plugin/frame/prestressed.h"
+
+#include "coupling/eigensolvers/slepc/buckling.h"
+#include "coupling/factors/make_factor.h"
+#include "coupling/substructures/prestress_statement.h"
+#include "fem/assembly/rigid_body_modes.h"
+#include "fem/assembly/rigid_motions.h"
+#include "fem/assembly/sparse_sum.h"
+#include "fem/values/available_memory.h"
+
+#include <Eigen/Cholesky>
+
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+[[noreturn]] void refuse(const fem::Prestress &prestress, const std::string &message)
+{
+  throw std::invalid_argument((prestress.place.empty() ? "prestress" : prestress.place) + ": " + message);
+}
+
+/// Solutions with the stiffness of the frame, held coordinates fixed.
+std::unique_ptr<StiffnessFactor> factor_of(const fem::FrameMatrices &frame, const std::vector<int> &held,
+                                           const fem::Prestress &prestress, const std::string &name)
+{
+  const auto free = fem::free_motions(frame, held);
+  if (!free.empty())
+    refuse(prestress, "the supports leave the frame free to move (" + free.front() +
+                          "), so its loads have no static equilibrium; add a support");
+  FactorMatrices matrices;
+  matrices.C         = &frame.C;
+  matrices.held      = held;
+  matrices.available = fem::available_memory();
+  auto factor        = make_factor(name, std::move(matrices));
+  factor->factorise();
+  return factor;
+}
+
+/// (0; C22^-1 (f2 - C21 q1)) + (q1; 0)
+VectorXd static_deflection(const StiffnessFactor &factor, const fem::Discretisation &frame, const std::vector<int> &q1,
+                           const std::vector<double> &motion)
+{
+  VectorXd given = VectorXd::Zero(frame.prestress_load.size());
+  for (std::size_t i = 0; i < q1.size(); ++i)
+    given[q1[i]] = motion[i];
+  VectorXd q = frame.prestress_load - frame.matrices.C * given;
+  factor.solve_in_place(q);
+  return q + given;
+}
+
+/**
+ * D with D R_1 = -Psi^T K R for the free motions R of a part: C + K + D lets it float, as reductions expect. D acts on
+ * interface coordinates, which remain, so that it can be subtracted from the reduced stiffness.
+ *
+ *     G = Psi^T K R,   P = (R_1^T R_1)^-1 R_1^T,   D = -(G P + P^T G^T - P^T R_1^T G P)
+ *
+ * @param inverse  C22^-1.
+ */
+MatrixXd balance_of(const StiffnessFactor &inverse, const fem::FrameMatrices &linear, const fem::SparseMatrix &K,
+                    const std::vector<int> &q1)
+{
+  const MatrixXd R = fem::free_displacements(linear);
+  if (R.cols() == 0)
+    return {};
+  const MatrixXd KR    = K * R;
+  MatrixXd       inner = KR;
+  inverse.solve_in_place(inner);
+  const MatrixXd G = (KR - linear.C * inner)(q1, Eigen::all), R_1 = R(q1, Eigen::all);
+  const MatrixXd P = (R_1.transpose() * R_1).ldlt().solve(R_1.transpose()), GP = G * P;
+  const MatrixXd D = P.transpose() * (R_1.transpose() * GP) - GP - GP.transpose();
+  return 0.5 * (D + D.transpose());
+}
+
+Eigen::SparseMatrix<double> at(const std::vector<int> &q1, const MatrixXd &D, Eigen::Index n)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index i = 0; i < D.rows(); ++i)
+    for (Eigen::Index j = 0; j < D.cols(); ++j)
+      entries.emplace_back(q1[std::size_t(i)], q1[std::size_t(j)], D(i, j));
+  Eigen::SparseMatrix<double> all(n, n);
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
+}
+
+} // namespace
+
+fem::Discretisation discretised(const fem::Mesh &mesh, const fem::FrameSpecification &specification,
+                                const std::string &factor, const Progress &progress)
+{
+  fem::Discretisation linear = fem::discretise_with_mesh_error(mesh, specification);
+  if (!specification.prestress)
+    return linear;
+  const fem::Prestress &prestress = *specification.prestress;
+  if (progress)
+    progress("prestress", -1.);
+  const bool             is_part = !prestress.interface_motion.empty();
+  const std::vector<int> held    = is_part ? linear.matrices.interface_coordinates() : std::vector<int>();
+  if (!is_part && linear.prestress_load.isZero(0.))
+    refuse(prestress, "its loads are zero; give the scene a 'gravity', or a load a 'force' or a 'pressure'");
+  const auto          C_inverse = factor_of(linear.matrices, held, prestress, factor);
+  const VectorXd      q0        = static_deflection(*C_inverse, linear, held, prestress.interface_motion);
+  fem::Discretisation stressed  = fem::discretise_with_mesh_error(mesh, specification, q0);
+  const auto          inverse   = std::make_shared<InverseByColumns>(
+      int(q0.size()), [&](Eigen::Ref<MatrixXd> X) { C_inverse->solve_in_place(X); }, held);
+  const double lambda = buckling_factor(inverse, linear.matrices.C, stressed.geometric);
+  require_below_buckling(lambda, prestress.place);
+  stressed.matrices.statements.push_back(buckling_statement(lambda, is_part ? " with the interfaces fixed" : ""));
+  if (is_part)
+  {
+    stressed.balance = balance_of(*C_inverse, linear.matrices, stressed.geometric, held);
+    fem::add(stressed.matrices.C, at(held, stressed.balance, q0.size()));
+  }
+  return stressed;
+}
+
+} // namespace gestell::coupling
