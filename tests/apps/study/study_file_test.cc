@@ -88,7 +88,7 @@ TEST(StudyFile, ValuesOfOutputsAreComparedWithTheirUnits)
       [] {
         check_units({{{0, {1., {1., 0., 0.}}, "limit: "}}, {}}, {{"nu", ""}});
       },
-      "limit: is in m, but output nu has no unit; give it in such a unit, as a plain number");
+      "limit: is in m, but output nu has no unit; use a matching unit, as a plain number");
   EXPECT_NO_THROW(with("[optimise.goals.F]\nscale = '600 kN'\n[optimise.limits.F]\nleast = 0\nmost = '1 MN'\n")());
   EXPECT_NO_THROW(with("[optimise.goals.F]\nscale = 1e5\n[optimise.goals.G]\nscale = '1 t'\n")());
 }
