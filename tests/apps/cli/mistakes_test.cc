@@ -65,7 +65,7 @@ const std::vector<Mistake> of_the_press = {
     {"TorqueOnAMassThatDoesNotTurn",
      {{"[element.sheet]", "[element.shake]\ntype = \"force\"\nfrom = \"frame.crown\"\nabout = [0, 1, 0]\n"
                           "constant = \"1 N m\"\n[element.sheet]"}},
-     {"element.shake", "\"frame.crown\" does not turn about [0, 1, 0]", "it has uz; name another DOF"}},
+     {"element.shake", "\"frame.crown\" does not rotate about [0, 1, 0]", "it has uz; name another DOF"}},
     {"ProfileAcrossAMassThatIsHeld",
      {{"[element.sheet]", "[element.shake]\ntype = \"force profile\"\nfrom = \"frame.crown\"\ndirection = [1, 0, 0]\n"
                           "profile = \"10 N*sin(t/s)\"\n[element.sheet]"}},
