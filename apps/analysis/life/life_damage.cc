@@ -366,9 +366,9 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
                        ": neighbouring elements disagree by " + percent(worst->disagreement, 2) + ", a factor of " +
                        short_text(worst->error.mesh, 3) +
                        " on life; make it finer there, or judge a weld by its hot spot");
-  if (found.beside_rigid && found.beside_rigid->damage > worst->damage)
-    warnings.push_back("life: the damage beside '" + found.beside_rigid->nearby + "' at " + place(*found.beside_rigid) +
-                       " is larger, " + short_text(found.beside_rigid->damage, 3) +
+  if (found.beside_rigid && found.beside_rigid->damage > worst->error.total() * worst->damage)
+    warnings.push_back("life: the damage at " + place(*found.beside_rigid) + ", beside " + found.beside_rigid->nearby +
+                       ", is larger, " + short_text(found.beside_rigid->damage, 3) +
                        ", but a rigid surface has no finite stress at its edge: no mesh resolves it; couple it by "
                        "\"average\" or judge a weld by its hot spot");
   constexpr double steady = 0.05; // of the damage: 1.6 % of the range with slope 3
