@@ -154,8 +154,7 @@ void describe(Visitor &v, const LifeResult &x)
   v("residue", x.residue, "", "ranges that no cycle closes");
   v("service", x.service, "s", "time in service of one repetition");
   v("strokes_each", x.strokes, "1", "strokes of one repetition");
-  v("closing", x.closing, "1",
-    "difference of the stress between end and start of the run, over the largest range; null: a window of it counts");
+  v("closing", x.closing, "1", "difference of the stress between end and start of the load, over its range");
   v("stroke_change", x.stroke_change, "1",
     "damage of the window before, relative difference; null: the run does not contain it");
   v("places", x.places, "", "worst places, by damage");
