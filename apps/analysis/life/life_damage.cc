@@ -99,11 +99,11 @@ LifeLoad half_as_many(const LifeLoad &load)
   return thinned(load, chosen);
 }
 
-/// The states without the highest quarter of the modes.
+/// The states without the higher half of the modes.
 MatrixXd without_high_modes(const ReducedFrame &frame, MatrixXd states)
 {
   const Index modes = frame.M.rows() - frame.n_interface;
-  states.middleRows(frame.n_interface + modes - modes / 4, modes / 4).setZero();
+  states.middleRows(frame.n_interface + modes - modes / 2, modes / 2).setZero();
   return states;
 }
 
