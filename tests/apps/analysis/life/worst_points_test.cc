@@ -103,6 +103,41 @@ TEST(DamageOfASlope, ToThePowerOfItsInverseIsASeminorm)
   EXPECT_GT(closest, 0.95) << "the inequality is sharp for similar walks";
 }
 
+/// docs/theory/life.md (11) on walks with random signs, and its limit: zeros of |V| at which the sign changes.
+TEST(DamageOfASlope, OfASignedNormIsBoundedByTheNormAndItsJumps)
+{
+  std::mt19937               random(12);
+  std::normal_distribution<> step;
+  const double               m     = 3.;
+  const auto                 bound = [&](const VectorXd &V, const VectorXd &sign)
+  {
+    double jumps = 0.;
+    for (Eigen::Index k = 1; k < V.size(); ++k)
+      jumps += sign[k] != sign[k - 1] ? 0.5 * std::pow(std::abs(V[k]) + std::abs(V[k - 1]), m) : 0.;
+    return std::pow(2., 1. - 1. / m) * power_of_damage(V, Residue::half, m) + std::pow(jumps, 1. / m);
+  };
+  for (int round = 0; round < 500; ++round)
+  {
+    VectorXd V = VectorXd::Zero(40), sign = VectorXd::Ones(40);
+    for (int k = 1; k < 40; ++k)
+    {
+      V[k]    = V[k - 1] + step(random);
+      sign[k] = random() % 8 ? sign[k - 1] : -sign[k - 1];
+    }
+    const VectorXd s = sign.cwiseProduct(V.cwiseAbs());
+    ASSERT_LE(power_of_damage(s, Residue::half, m), bound(V, sign) * (1. + 1e-12)) << round;
+  }
+  VectorXd V(41), sign(41);
+  for (int k = 0; k <= 40; ++k)
+  {
+    V[k]    = k % 2; // 0 1 0 1 ...
+    sign[k] = (k / 2) % 2 ? -1. : 1.;
+  }
+  EXPECT_NEAR(power_of_damage(sign.cwiseProduct(V), Residue::half, m) / power_of_damage(V, Residue::half, m),
+              std::pow(2., 1. - 1. / m), 0.05)
+      << "the factor is needed; half cycles at the ends";
+}
+
 /// A plate with a notch: smooth fields of each coordinate, three times as large at the notch.
 struct Plate
 {
@@ -221,6 +256,30 @@ TEST_P(WorstPointsOf, AreThoseOfCountingAllPoints)
     expect_the_worst(worst_points(plate.stress, plate.states, plate.load(), rule, search),
                      by_looking_at_all(plate, rule, search));
   }
+}
+
+/// Pure shear has no trace, rounding apart, and a trace that crosses zero all the time has many jumps.
+TEST(WorstPoints, OfSignedVonMisesAreFoundWithAndWithoutATrace)
+{
+  for (const float size : {0.f, 1e-9f, 0.2f})
+  {
+    Plate plate(100, 200);
+    for (int i = 0; i < 600; ++i)
+      plate.stress.mean.row(i) *= i % 6 == 3 ? 1.f : i % 6 == 0 ? size : 0.f;
+    const DamageSearch search = plate.search(StressMeasure::signed_von_mises, 3);
+    const DamageRule   rule   = rules()[1];
+    expect_the_worst(worst_points(plate.stress, plate.states, plate.load(), rule, search),
+                     by_looking_at_all(plate, rule, search));
+  }
+}
+
+TEST(WorstPoints, OfPlanesInSpaceAreThoseOfCountingAll)
+{
+  const Plate  plate(40, 100);
+  DamageSearch search = plate.search(StressMeasure::critical_plane, 2);
+  search.directions.clear();
+  expect_the_worst(worst_points(plate.stress, plate.states, plate.load(), rules()[0], search),
+                   by_looking_at_all(plate, rules()[0], search));
 }
 
 INSTANTIATE_TEST_SUITE_P(Measures, WorstPointsOf,
