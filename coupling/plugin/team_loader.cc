@@ -58,7 +58,7 @@ TeamService *load_team()
     throw std::invalid_argument(
         std::string(launched.by) + ": started " + std::to_string(launched.size) + " processes, but MPI finds " +
         std::to_string(team->size()) +
-        ": the launcher belongs to another MPI than that of Gestell; use the mpirun of Gestell's MPI "
+        ": the launcher belongs to an MPI other than Gestell's; use the mpirun of Gestell's MPI "
         "(Debian: package openmpi-bin), or srun --mpi=pmix, or " +
         way_of_cases);
   return team;

@@ -83,7 +83,7 @@ bool has_cause(const RandomMachine &machine, const std::string &warning, const T
     return std::any_of(reported.run.signals.begin(), reported.run.signals.end(),
                        [](const coupling::SignalSummary &signal)
                        { return signal.name.find(".pressure_") != std::string::npos && signal.min < 0.; });
-  const std::string words = "the start lies inside the contact of \"";
+  const std::string words = "the initial state penetrates the contact of \"";
   if (!begins(warning, words))
     return false;
   const std::string name = warning.substr(words.size(), warning.find('"', words.size()) - words.size());

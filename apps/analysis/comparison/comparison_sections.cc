@@ -166,9 +166,10 @@ std::vector<Section> sections_of(const Result &result, const ComparedShapes &sha
                   Section::Place::frequencies};
   const coupling::ModeComparison &match = shapes.match;
   section.parts.push_back(Section::Sentences{
-      "Modes of " + shapes.a.scene + " and, listed as other, of " + shapes.b.scene + ", matched by " +
+      "Modes of " + shapes.a.scene + " and of " + shapes.b.scene + " (columns \"other\"), matched by " +
       count_text(shapes.measures.size(), "shared measure") +
-      ", weighted with their apparent masses. Observability is the share of a mode's kinetic energy in these measures; "
+      " that are weighted with their apparent masses. Observability is the share of a mode's kinetic energy in these "
+      "measures; "
       "a mode with low observability has no match." +
       (std::max(match.seen_a.maxCoeff(), match.seen_b.maxCoeff()) > 1.0005
            ? " The modes do not span all motions of the measures, so observability is a weight that may exceed 100 %."

@@ -81,10 +81,10 @@ void require_valid(const LoadSequence &load, std::int64_t n)
   {
     const LoadBlock  &block = load.blocks[b];
     const std::string name  = "block " + std::to_string(b + 1) + " of the load ";
-    if (block.first < 0 || block.end > n || block.first >= block.end)
+    if (block.first < (b > 0 ? load.blocks[b - 1].end : 0) || block.end > n || block.first >= block.end)
       throw std::invalid_argument(name + "has the samples " + std::to_string(block.first) + " to " +
                                   std::to_string(block.end) + ", but there are " + std::to_string(n) +
-                                  "; give at least one sample of the history.");
+                                  "; give at least one sample of the history, after those of the block before.");
     if (!(block.repetitions >= 1.) || !std::isfinite(block.repetitions))
       throw std::invalid_argument(name + "is repeated " + std::to_string(block.repetitions) +
                                   " times; give a finite number of at least 1.");

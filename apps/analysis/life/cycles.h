@@ -67,14 +67,15 @@ struct LoadBlock
 /// Blocks one after another; one repetition of the load is all blocks with their repetitions.
 struct LoadSequence
 {
-  std::vector<LoadBlock> blocks; ///< at least one, none empty
+  std::vector<LoadBlock> blocks; ///< at least one, none empty, each after the samples of the one before
   Residue                residue = Residue::repeated;
 };
 
 /// The samples 0 to n - 1 once.
 LoadSequence single_load(std::int64_t n, Residue residue);
 
-/// @throws std::invalid_argument: no block, an empty one, samples beyond n, repetitions < 1 or not finite
+/// @throws std::invalid_argument: no block, an empty one, samples beyond n or of the block before, repetitions < 1 or
+/// not finite
 void require_valid(const LoadSequence &load, std::int64_t n);
 
 /**

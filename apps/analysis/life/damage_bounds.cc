@@ -54,6 +54,30 @@ std::vector<UpperLine> upper_lines(const SnCurve &curve, Miner miner)
   return lines;
 }
 
+/// (sum of count size^m)^(1/m).
+class PowerSum
+{
+public:
+  explicit PowerSum(const std::vector<SizeCount> &parts) : logarithm_(Index(parts.size())), count_(Index(parts.size()))
+  {
+    for (const SizeCount &part : parts)
+      largest_ = std::max(largest_, part.size);
+    for (std::size_t k = 0; k < parts.size(); ++k) // relative to the largest: powers do not overflow
+    {
+      logarithm_[Index(k)] = parts[k].size > 0. ? parts[k].size / largest_ : 1.;
+      count_[Index(k)]     = parts[k].size > 0. ? parts[k].count : 0.;
+    }
+    logarithm_ = logarithm_.log();
+  }
+
+  double largest() const { return largest_; }
+  double root(double m) const { return largest_ * std::pow((count_ * (m * logarithm_).exp()).sum(), 1. / m); }
+
+private:
+  double         largest_ = 0.;
+  Eigen::ArrayXd logarithm_, count_;
+};
+
 /// Principal components of `centred` in the norm of `gram` [n x n], rounding in it added direction by direction, as in
 /// coupling::largest_von_mises.
 MatrixXd principal_basis(const MatrixXd &gram, const MatrixXd &centred, MatrixXd &components)
@@ -105,27 +129,27 @@ void DamageBounds::measure(const MatrixXd &components, const LoadSequence &load)
   {
     history = components.row(r);
     count_cycles(history.data(), load, cycles);
-    Eigen::ArrayXd range(cycles.size()), count(cycles.size());
-    for (std::size_t k = 0; k < cycles.size(); ++k)
-    {
-      range[Index(k)] = cycles[k].range / width_[r]; // whose powers do not overflow
-      count[Index(k)] = cycles[k].count;
-    }
-    range = range.log();
-    for (Index j = 0; j < powers_.cols() && !cycles.empty(); ++j)
-    {
-      const double m = lines_[std::size_t(j)].slope;
-      powers_(r, j)  = width_[r] * std::pow((count * (m * range).exp()).sum(), 1. / m);
-    }
+    std::vector<SizeCount> ranges;
+    for (const Cycle &cycle : cycles)
+      ranges.push_back({cycle.range, cycle.count});
+    const PowerSum sum(ranges);
+    for (Index j = 0; j < powers_.cols(); ++j)
+      powers_(r, j) = sum.root(lines_[std::size_t(j)].slope);
   }
 }
 
 void DamageBounds::divide(const MatrixXd &components, const LoadSequence &load)
 {
-  constexpr std::int64_t window = 32; // steps: fewer cost more, in more of them the components change more
+  constexpr std::int64_t window   = 32; // steps: fewer cost more, in more of them the components change more
+  const auto             parts_of = [](const LoadBlock &samples, std::int64_t steps, std::vector<LoadBlock> &parts)
+  {
+    std::int64_t first = samples.first;
+    do // a single sample is one, too
+      parts.push_back({first, std::min(first + steps, samples.end), samples.repetitions});
+    while ((first += steps) < samples.end);
+  };
   for (const LoadBlock &block : load.blocks)
-    for (std::int64_t first = block.first; first < block.end - 1; first += window)
-      windows_.push_back({first, std::min(first + window, block.end - 1), block.repetitions});
+    parts_of({block.first, block.end - 1, block.repetitions}, window, windows_);
   middle_ = change_ = MatrixXd(components.rows(), Index(windows_.size()));
   for (Index w = 0; w < middle_.cols(); ++w)
   {
@@ -134,6 +158,25 @@ void DamageBounds::divide(const MatrixXd &components, const LoadSequence &load)
     const auto inside                     = components.middleCols(first, last - first + 1);
     change_.col(w)                        = (inside.colwise() - middle_.col(w)).cwiseAbs().rowwise().maxCoeff();
   }
+  constexpr std::int64_t short_window = 8; // steps, a part of `window`
+  for (const LoadBlock &whole : windows_)
+    parts_of(whole, short_window, short_windows_);
+  bend_ = MatrixXd::Zero(components.rows(), Index(short_windows_.size()));
+  for (Index w = 0; w < bend_.cols(); ++w)
+  {
+    const auto [first, last, repetitions] = short_windows_[std::size_t(w)];
+    for (std::int64_t t = first + 1; t < last; ++t)
+    {
+      const double part = double(t - first) / double(last - first);
+      bend_.col(w)      = bend_.col(w).cwiseMax(
+               (components.col(t) - (1. - part) * components.col(first) - part * components.col(last)).cwiseAbs());
+    }
+  }
+}
+
+VectorXd DamageBounds::bending(const Eigen::Ref<const Eigen::ArrayXd> &parts) const
+{
+  return rounded_up * (bend_.transpose() * parts.matrix());
 }
 
 std::vector<std::vector<LoadBlock>> DamageBounds::possible_sign_changes(const MatrixXd &parts, const VectorXd &offset,
@@ -156,26 +199,48 @@ std::vector<std::vector<LoadBlock>> DamageBounds::possible_sign_changes(const Ma
   return possible;
 }
 
-double DamageBounds::of_powers(const Eigen::Ref<const Eigen::ArrayXd> &parts, double factor,
-                               const std::vector<SignJump> &jumps) const
+/// The least of (factor D_m^(1/m))^m / constant over the lines, or their sum.
+template <typename Root>
+double DamageBounds::of_roots(double factor, const Root &root) const
 {
   double least = std::numeric_limits<double>::infinity(), sum = 0.;
   for (Index j = 0; j < powers_.cols(); ++j)
   {
-    const auto &[m, constant] = lines_[std::size_t(j)];
-    double root               = (parts * powers_.col(j).array()).sum();
-    if (!jumps.empty())
-    {
-      double damage = 0.;
-      for (const SignJump &jump : jumps)
-        damage += 0.5 * jump.count * std::pow(jump.size, m);
-      root = std::pow(2., 1. - 1. / m) * root + std::pow(damage, 1. / m);
-    }
-    const double bound = std::pow(factor * root, m) / constant;
-    least              = std::min(least, bound);
+    const double bound = std::pow(factor * root(j, lines_[std::size_t(j)].slope), lines_[std::size_t(j)].slope) /
+                         lines_[std::size_t(j)].constant;
+    least = std::min(least, bound);
     sum += bound;
   }
   return rounded_up * (least_ ? least : sum);
+}
+
+double DamageBounds::of_powers(const Eigen::Ref<const Eigen::ArrayXd> &parts, double factor,
+                               const std::vector<SizeCount> &jumps) const
+{
+  const PowerSum of_jumps(jumps);
+  return of_roots(factor,
+                  [&](Index j, double m)
+                  {
+                    const double smooth = (parts * powers_.col(j).array()).sum();
+                    return jumps.empty()
+                               ? smooth
+                               : std::pow(2., 1. - 1. / m) * smooth + std::pow(0.5, 1. / m) * of_jumps.root(m);
+                  });
+}
+
+double DamageBounds::of_cycles(const std::vector<Cycle> &cycles, const std::vector<SizeCount> &remainder,
+                               double peak) const
+{
+  std::vector<SizeCount> ranges;
+  for (const Cycle &cycle : cycles)
+    ranges.push_back({cycle.range, cycle.count});
+  const PowerSum of_ranges(ranges), of_remainder(remainder);
+  const double   factor = rule_->mean_stress.largest_factor(peak, rule_->curve.ratio);
+  if (rule_->miner != Miner::elementary &&
+      rounded_up * factor * (of_ranges.largest() + of_remainder.largest()) < rule_->curve.cut_off())
+    return 0.;
+  return of_roots(factor,
+                  [&](Index, double m) { return of_ranges.root(m) + std::pow(0.5, 1. / m) * of_remainder.root(m); });
 }
 
 double DamageBounds::of_linear(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset) const
@@ -192,7 +257,7 @@ double DamageBounds::peak_of_norm(const Eigen::Ref<const Eigen::ArrayXd> &parts,
 }
 
 double DamageBounds::of_signed_norm(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset,
-                                    const std::vector<SignJump> &jumps) const
+                                    const std::vector<SizeCount> &jumps) const
 {
   const double peak   = peak_of_norm(parts, offset);
   const double factor = rule_->mean_stress.largest_factor(peak, rule_->curve.ratio);

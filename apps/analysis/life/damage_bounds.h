@@ -16,7 +16,8 @@ struct UpperLine
   double constant = 1.;
 };
 
-struct SignJump
+/// A change of a history, and how often it happens.
+struct SizeCount
 {
   double size  = 0.;
   double count = 0.; ///< in one repetition of the load
@@ -52,7 +53,19 @@ public:
    * @param jumps   |V| before and after each change of sign, added
    */
   double of_signed_norm(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset,
-                        const std::vector<SignJump> &jumps) const;
+                        const std::vector<SizeCount> &jumps) const;
+
+  /**
+   * The same from cycles of a history that differs by a remainder, docs/theory/life.md (12).
+   * @param remainder  its changes
+   * @param peak       upper bound of the history
+   */
+  double of_cycles(const std::vector<Cycle> &cycles, const std::vector<SizeCount> &remainder, double peak) const;
+
+  /// Parts of the windows of possible_sign_changes(), samples [first, end].
+  const std::vector<LoadBlock> &short_windows() const { return short_windows_; }
+  /// Largest distance of each short window's states from the line between its borders [short windows].
+  Eigen::VectorXd bending(const Eigen::Ref<const Eigen::ArrayXd> &parts) const;
 
   /// Upper bound of the norm of the stress.
   double peak_of_norm(const Eigen::Ref<const Eigen::ArrayXd> &parts, double offset) const;
@@ -70,7 +83,9 @@ private:
   void   measure(const Eigen::MatrixXd &components, const LoadSequence &load);
   void   divide(const Eigen::MatrixXd &components, const LoadSequence &load);
   double of_powers(const Eigen::Ref<const Eigen::ArrayXd> &parts, double factor,
-                   const std::vector<SignJump> &jumps) const;
+                   const std::vector<SizeCount> &jumps) const;
+  template <typename Root>
+  double of_roots(double factor, const Root &root) const;
 
   const DamageRule      *rule_;
   Eigen::MatrixXd        basis_;
@@ -83,6 +98,8 @@ private:
   Eigen::MatrixXd        middle_;       ///< c_r in the middle of each window [components x windows]
   Eigen::MatrixXd        change_;       ///< max |c_r - middle| in the window
   std::vector<LoadBlock> windows_;      ///< samples [first, end], the last one is the first of the next
+  std::vector<LoadBlock> short_windows_;
+  Eigen::MatrixXd        bend_; ///< max |c_r - line between its borders| [components x short windows]
 };
 
 } // namespace gestell::apps

@@ -131,9 +131,9 @@ std::vector<Section> sections_of(const Result &, const SensitivityResult &found)
                                         Section::Drawing::Shown::picture});
   }
   if (!charts.empty())
-    section.parts.push_back(Part{
-        "Derivatives of the equations of motion at this run. They are valid while the order of events does not change.",
-        true});
+    section.parts.push_back(
+        Part{"Derivatives of the results of this run. They are valid as long as the order of events does not change.",
+             true});
   section.parts.insert(section.parts.end(), charts.begin(), charts.end());
   if (peaks.is_empty() && others.is_empty() && found.failure.empty() && !found.interrupted)
     section.parts.push_back(Part{"None of these parameters changes an output of this run."});

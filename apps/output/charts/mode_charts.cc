@@ -98,7 +98,7 @@ std::string mode_heading(std::size_t j, const coupling::Mode &mode)
 
 std::string damping_text(const coupling::Mode &mode)
 {
-  return std::isnan(mode.damping_ratio) ? "no vibration"
+  return std::isnan(mode.damping_ratio) ? "no oscillation"
                                         : "damping ratio " + short_text(100. * mode.damping_ratio, 3) + " %";
 }
 

@@ -66,8 +66,10 @@ std::string peak_figure(const Result &result)
   MachinePicture    picture{"motion"};
   picture.t           = peak.t;
   picture.enlargement = times;
-  return machine_picture(picture, "Machine at the main peak: " + escape_xml(when) +
-                                      " (extreme of the first force, or of the first signal)." + enlarged + edges);
+  return machine_picture(picture,
+                         "Machine at the main peak: " + escape_xml(when) +
+                             " (extreme of the first force signal, or of the first signal if no force is recorded)." +
+                             enlarged + edges);
 }
 
 std::string mode_pictures(const std::vector<coupling::Mode> &modes, const std::string &of, std::size_t most)

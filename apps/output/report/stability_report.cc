@@ -63,8 +63,8 @@ std::string intervals_section(const StabilityStudy &study)
   return section(
       "intervals", "Unstable intervals of the methods",
       table_of(study.intervals).html() +
-          "<p class=\"soft\">Methods that are not listed are stable everywhere. Exact propagation is listed for the "
-          "force of a closed contact on a free mass. It has no error for modes of the base system.</p>");
+          "<p class=\"soft\">Methods that are not listed are stable everywhere. For exact propagation, the listed "
+          "intervals are those of a closed contact on a free mass; modes of the base system have no error.</p>");
 }
 
 } // namespace

@@ -153,7 +153,7 @@ ElementType dry_friction_type()
                        .by_default("from `kinetic`")
                        .unless("kinetic")
                        .into(&Friction::kinetic_force),
-                   key::number("normal_force", kind::force, "normal force, multiplied by the coefficients")
+                   key::number("normal_force", kind::force, "normal force, by which the coefficients are multiplied")
                        .from_zero()
                        .by_default("none"),
                    key::number("static", kind::number, "static friction coefficient").from_zero().by_default(""),

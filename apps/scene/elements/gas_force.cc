@@ -47,7 +47,7 @@ ElementType gas_force_type()
                key::number("delivery_pressure", kind::pressure, "pressure at which the outlet opens")
                    .above_zero()
                    .by_default("no valves"),
-               key::number("initial_pressure", kind::pressure, "pressure at the start; required without valves")
+               key::number("initial_pressure", kind::pressure, "initial pressure; required without valves")
                    .above_zero()
                    .same_as("suction_pressure")
                    .into(&Gas::initial_pressure)}}),

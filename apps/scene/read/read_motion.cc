@@ -57,9 +57,10 @@ std::vector<Key> motion_law_keys()
                             key::number("delay", kind::time, "delay after the command").from_zero().by_default(0.)},
                            "ramps of `\"shaped\"`")
                  .by_default("none")},
-            "braking: `{ family = \"linear\", duration = \"0.15 s\" }` reduces the speed to zero linearly, with "
-            "`\"cosine\"` as half a cosine, with `\"shaped\"` in ramps of this duration each, `ramps = [{ share = 0.5, "
-            "delay = 0 }, { share = 0.5, delay = \"1.2 s\" }]`. Corners are events, the last one `braking_ends`")
+            "braking: `{ family = \"linear\", duration = \"0.15 s\" }` reduces the speed to zero at constant "
+            "deceleration, `\"cosine\"` along half a cosine, `\"shaped\"` in ramps of this duration each, `ramps = [{ "
+            "share = 0.5, delay = 0 }, { share = 0.5, delay = \"1.2 s\" }]`. Corners are events, the last one "
+            "`braking_ends`")
             .by_default("none")},
        function_keys(kind::time, kind::length)});
 }

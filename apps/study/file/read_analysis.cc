@@ -36,9 +36,8 @@ void refuse_stepped_variables(const StudyFile &study, const SceneTable &table, c
 {
   for (const VariableRequest &variable : study.variables)
     if (variable.variable.stepped)
-      throw table.error("variable " + variable.variable.name + " takes " +
-                        (variable.files.empty() ? "words" : "files") +
-                        ", with no values between them; remove it from the study, or remove " + asks);
+      throw table.error("variable " + variable.variable.name + " has " + (variable.files.empty() ? "text" : "files") +
+                        " as levels, which cannot be interpolated; remove it from the study, or remove " + asks);
 }
 
 SurfaceRequest read_surface(const StudyFile &study, const SceneTable &table)

@@ -229,8 +229,6 @@ void check(const std::vector<std::string> &segments, const Scene &scene)
                          "; modes.number of the scene is the number of listed modes");
   else if (segments.front() == "stress" && !scene.stress.given)
     refuse(segments, "requests stresses, which the scene does not compute; add [output.stress]");
-  else if (segments.front() == "life" && !scene.life)
-    refuse(segments, "requests fatigue, which the scene does not compute; add [life]");
 }
 
 AnswerValue value(const std::vector<std::string> &segments, const Result &result)

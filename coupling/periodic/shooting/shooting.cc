@@ -109,8 +109,8 @@ void note_condensed(PeriodicSolution &solution)
   constexpr double   told  = 10. * PassageDerivative::left_out; // what may be missing, of all motions together
   const auto         known = solution.multipliers.cwiseAbs().array() >= told;
   std::ostringstream text;
-  text << "multipliers are those of motions that keep more than " << PassageDerivative::left_out
-       << " over a period; those below " << told << " are 0";
+  text << "multipliers below " << told << " are given as 0: motions of which less than " << PassageDerivative::left_out
+       << " remains after a period are neglected";
   solution.notes.push_back(text.str());
   solution.multipliers = known.select(solution.multipliers.array(), std::complex<double>(0.));
 }

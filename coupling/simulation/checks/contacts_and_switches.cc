@@ -77,9 +77,9 @@ void check_closed_contacts(const Machine &machine, const InitialState &initial, 
   machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
   for (const std::string &contact : machine.closed_contacts(local))
     outcome.warn("contact-at-start", contact,
-                 "the contact of " + contact +
-                     " is closed in the initial state and pushes at once. If this is not intended, change the position "
-                     "or the clearance, or use start.rule = \"static\"");
+                 "the initial state penetrates the contact of " + contact +
+                     ", which pushes at once. If this is not intended, change the position or the clearance, or use "
+                     "start.rule = \"static\"");
 }
 
 void check_unlocated_friction(const Machine &machine, RunOutcome &outcome)

@@ -99,7 +99,7 @@ BrickLattice brick_lattice(const PlateSolids &solids, double diagonal, const std
   }
   constexpr double most_bricks = 3e7; // 240 MB of marks
   if (n < 1. || n > most_bricks)
-    throw NotSwept("the planes of its faces make " + text(n) + " bricks");
+    throw NotSwept("the planes of its faces would divide it into " + text(n) + " bricks");
   lattice.solid.assign(std::size_t(lattice.n(0)) * lattice.n(1) * lattice.n(2), -1);
   lattice.region = lattice.solid;
   for (std::size_t solid = 0; solid < solids.of_solid.size(); ++solid)

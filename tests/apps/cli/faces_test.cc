@@ -111,7 +111,7 @@ TEST(FacesPage, OpensWithoutANetworkInLessThanFiveMegabytes)
   EXPECT_LT(page.size(), 5000000u);
   EXPECT_EQ(count(page, "src="), 0);
   EXPECT_EQ(count(page, "http"), 0);
-  EXPECT_THAT(page, HasSubstr("the file's unit of length is mm"));
+  EXPECT_THAT(page, HasSubstr("the file's length unit is mm"));
   EXPECT_GT(std::filesystem::file_size(folder.results() / "faces.vtp"), 10000u);
 }
 

@@ -26,7 +26,7 @@ TEST(TieRodPress, KeepsItsJointsClosedThroughTheCut)
 
   const Answer loose =
       gestell("run " + scene("tie_rod_press.toml") + coarse + folder.option() + " --set parameters.F_0='\"300 kN\"'");
-  expect_answer(loose, 0, {"frame.joint.\"upper left\": this joint opens: its normal force falls to -156"});
+  expect_answer(loose, 0, {"frame.joint.\"upper left\": this joint opens: its normal force drops to -156"});
 }
 
 TEST(TieRodPress, IsMadeOfThreeReductionsThatAChangeOfTheRodsKeeps)

@@ -65,7 +65,7 @@ const std::vector<Mistake> of_the_press = {
     {"TorqueOnAMassThatDoesNotTurn",
      {{"[element.sheet]", "[element.shake]\ntype = \"force\"\nfrom = \"frame.crown\"\nabout = [0, 1, 0]\n"
                           "constant = \"1 N m\"\n[element.sheet]"}},
-     {"element.shake", "\"frame.crown\" does not turn about [0, 1, 0]", "it has uz; name another DOF"}},
+     {"element.shake", "\"frame.crown\" does not rotate about [0, 1, 0]", "it has uz; name another DOF"}},
     {"ProfileAcrossAMassThatIsHeld",
      {{"[element.sheet]", "[element.shake]\ntype = \"force profile\"\nfrom = \"frame.crown\"\ndirection = [1, 0, 0]\n"
                           "profile = \"10 N*sin(t/s)\"\n[element.sheet]"}},
@@ -231,6 +231,18 @@ TEST(MistakeOnTheCommandLine, IsAnsweredWithTheOptionAndWhatItTakes)
   expect_answer(gestell("check"), 2, {"gestell: check: SCENE is required", "--help"});
   expect_answer(gestell("run " + file + " -o /proc/x"), 2, {"/proc/x", "name a folder that can be written with -o"});
   EXPECT_FALSE(std::filesystem::exists(folder.results()));
+}
+
+TEST(DampingThatIsWanted, IsRefusedWithTheReasonWhereTheFrameCannotGiveIt)
+{
+  const Folder folder("mistake");
+  const auto   ask = [&](const std::string &wanted)
+  { return gestell("modes " + scene("cam_follower.toml") + folder.option() + "--damping-for " + wanted); };
+  expect_answer(ask("1=0.02"), 0, {"frame.damping.ratio = 0.0237", "mode 1 of the coupled machine"});
+  expect_answer(ask("1=0.0001"), 2, {"--damping-for 1=0.0001", "0.0253 % already", "a negative ratio would be needed"});
+  expect_answer(ask("2=0.5"), 2, {"even a ratio of 0.999", "the frame takes too little part in it"});
+  expect_answer(ask("9=0.1"), 2, {"mode 9 does not exist; the machine has 2 modes"});
+  expect_answer(ask("1"), 2, {"--damping-for 1: needs the number of a mode", "such as 3=0.02"});
 }
 
 // The file system says of such names neither that anything is there nor that nothing is.

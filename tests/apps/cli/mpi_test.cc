@@ -234,7 +234,7 @@ TEST(Mpi, AnotherLauncherIsRefused)
   const std::string other  = "PMI_SIZE=2 PMI_RANK=";
   const Answer      first  = call(folder, other + "0 ", "check " + scene("press.toml"));
   const Answer      second = call(folder, other + "1 ", "check " + scene("press.toml"));
-  expect_answer(first, 2, {"belongs to another MPI"});
+  expect_answer(first, 2, {"belongs to an MPI other"});
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_FALSE(second.says("gestell")) << second.text;
 }

@@ -51,7 +51,7 @@ TEST(SideBySide, RunsIntoOneFolderLeaveAWholeOneAndRefuseTheRest)
   for (const Answer &answer : answers)
     if (answer.exit_code != 0)
       expect_answer(answer, 2,
-                    {": process ", " on ", " is computing results for this folder; wait until it has ended, or "});
+                    {": process ", " on ", " is computing results for this folder; wait until it ends, or "});
   EXPECT_GE(ended_with(answers, 0), 1);
   EXPECT_TRUE(is_whole(folder.results(), history));
 }

@@ -82,7 +82,7 @@ TEST(StudyCommand, IsNotBegunTwiceInOneFolderAtOnce)
   const std::string first  = both.text.substr(at + 9, both.text.find('\n', at) - at - 9);
   EXPECT_EQ(both.exit_code, 0) << both.text;
   EXPECT_EQ(count(both.text, "process " + first + " on "), 2) << both.text;
-  EXPECT_EQ(count(both.text, " is making a study there; wait until it has ended"), 2) << both.text;
+  EXPECT_EQ(count(both.text, " is running a study there; wait until it ends"), 2) << both.text;
   EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 12);
 }
 
@@ -174,8 +174,8 @@ TEST(StudyCommand, WarnsOfASurfaceThatForetellsNothing)
   const Answer answer = gestell("study " + folder.file("s.toml", text) + folder.option() +
                                 "--set design.runs=7 --set run.end=\"5 ms\" --set surface={} "
                                 "--set 'outputs.n=\"cos(c_P/(1.3 N/mm))\"'");
-  expect_answer(answer, 0, {"gestell: warning: the surface of n foretells runs that it was not fitted to"});
-  EXPECT_EQ(count(read(folder.results() / "findings.txt"), "the surface of n foretells"), 1);
+  expect_answer(answer, 0, {"gestell: warning: the surface of n predicts runs outside its fit"});
+  EXPECT_EQ(count(read(folder.results() / "findings.txt"), "the surface of n predicts"), 1);
 }
 
 TEST(StudyCommand, FindsTheOptimumAndWritesItAsAScene)

@@ -60,7 +60,7 @@ TEST(CommandOption, RefusesTextsThatAreNoneOfItsKind)
   std::string kind    = "one";
   const auto  refused = [](const CommandOption &option, const std::string &text)
   { return tests::refusal([&] { option.set({text}); }); };
-  EXPECT_THAT(refused({"--count", &count, ""}, "1.5"), HasSubstr("--count: needs a whole number, got '1.5'"));
+  EXPECT_THAT(refused({"--count", &count, ""}, "1.5"), HasSubstr("--count: needs an integer, got '1.5'"));
   EXPECT_THAT(refused({"--count", &count, ""}, "many"), HasSubstr("got 'many'"));
   EXPECT_THAT(refused(CommandOption{"--kind", &kind, ""}.one_of({"one", "two"}), "tow"), HasSubstr("two"));
   EXPECT_EQ(count, 1);

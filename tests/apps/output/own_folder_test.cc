@@ -110,7 +110,7 @@ TEST_F(OwnFiles, OfAListThatIsNoneOfOursAreNone)
   put("history.csv");
   remove_all(folder / "");
   EXPECT_TRUE(fs::exists(folder / "history.csv"));
-  EXPECT_NE(refused({"chart.csv"}).find(".gestell-files is no list of gestell"), std::string::npos);
+  EXPECT_NE(refused({"chart.csv"}).find(".gestell-files is not a file list written by gestell"), std::string::npos);
   EXPECT_THROW(OwnFolder(folder / "").claim("chart.csv"), std::invalid_argument);
   EXPECT_EQ(read(folder / ".gestell-files"), "history.csv\n");
 }

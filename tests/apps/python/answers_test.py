@@ -171,7 +171,7 @@ class Errors(unittest.TestCase):
         self.assertGreater(caught.exception.line, 100)
 
     def test_speak_of_arguments(self):
-        with self.assertRaisesRegex(gestell.InputError, "needs its ends, from_ and to"):
+        with self.assertRaisesRegex(gestell.InputError, "from_ and to are missing"):
             gestell.example("press_minimal").periodic(along="parameters.c_P")
         with self.assertRaisesRegex(gestell.SceneError, "no single frame"):
             oscillator().full_frame()

@@ -198,7 +198,7 @@ class Mistakes(unittest.TestCase):
         self.refused(["no signal 'F_Q'"], lambda: short_press().run(peaks=["F_Q"]))
         self.refused(["no signal 'F_Q'"], lambda: short_press().run()["F_Q"])
         self.refused(["the frame of the scene is not reduced"], lambda: short_press().frame())
-        self.refused(["no [parameters]"], lambda: gestell.Scene(OSCILLATOR).run(sensitivities="all"))
+        self.refused(["all [parameters] of the scene are zero"], lambda: gestell.Scene(OSCILLATOR).run(sensitivities="all"))
         with self.assertRaises(KeyError):
             short_press()["parameters.c_PP"]
 

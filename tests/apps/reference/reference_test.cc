@@ -18,6 +18,7 @@ namespace
 
 using namespace gestell::apps;
 using gestell::test::SceneFolder;
+using gestell::test::with;
 
 /// What the examples act on.
 const std::string bodies = R"toml(
@@ -190,7 +191,13 @@ const LookedUp &all_asked()
     LookedUp everything;
     EXPECT_EQ(read(content("tests/apps/reference/machine.toml"), everything), "");
     EXPECT_EQ(read(content("tests/apps/reference/frame_from_cad.toml"), everything), "");
-    EXPECT_EQ(read(content("tests/apps/reference/frame_of_parts.toml"), everything), "");
+    const std::string parts = content("tests/apps/reference/frame_of_parts.toml");
+    EXPECT_EQ(read(parts, everything), "");
+    EXPECT_EQ(
+        read(with(parts, "rayleigh = [{ frequency = '20 Hz', ratio = 0.01 }, { frequency = '500 Hz', ratio = 0.02 }]",
+                  "modes = [{ mode = 1, ratio = 0.01 }]"),
+             everything),
+        "");
     EXPECT_EQ(read(content("tests/apps/reference/imported_frame.toml"), everything), "");
     for (const BodyType &type : body_types())
       EXPECT_NE(read(body_from_cad(type.name), everything), "") << type.name;

@@ -98,8 +98,8 @@ TEST(FormulaText, ReportsWhatIsWrongAndAtWhichCharacter)
     std::string text, words;
   };
   const std::vector<Mistake> mistakes = {
-      {"900 N/m*u + 3 mm", "adds m to N; both must be of one kind (character 11)"},
-      {"900 N/m*u - 20 N*v", "subtracts kg m^2/s^3 from N; both must be of one kind (character 11)"},
+      {"900 N/m*u + 3 mm", "adds m to N; both must have the same dimension (character 11)"},
+      {"900 N/m*u - 20 N*v", "subtracts kg m^2/s^3 from N; both must have the same dimension (character 11)"},
       {"900 N/m*u + stifness*u", "names 'stifness', which is neither a variable, a parameter nor a unit; did you mean "
                                  "'stiffness'?; the variables are t (time), u (displacement), v (its rate)"},
       {"900 N/m*u + stifness*u", "(character 13)"},
@@ -109,8 +109,8 @@ TEST(FormulaText, ReportsWhatIsWrongAndAtWhichCharacter)
       {"3 µm * 5 N/m * exp(u)", "takes exp() of m; it needs a plain number or an angle (character 16)"}, // not bytes
       {"5 N u", "lacks an operator (* / + -) before 'u' (character 5)"},
       {"5 N t", "uses 't', which is a unit and a variable"},
-      {"if(u < 3 kg, 1 N, 2 N)", "compares kg with m; both must be of one kind (character 6)"},
-      {"if(u < gap, 1 N, 2 m)", "chooses between m and N; both must be of one kind (character 1)"},
+      {"if(u < 3 kg, 1 N, 2 N)", "compares kg with m; both must have the same dimension (character 6)"},
+      {"if(u < gap, 1 N, 2 m)", "chooses between m and N; both must have the same dimension (character 1)"},
       {"if(u, 1 N, 2 N)", "has an if() without a comparison (< <= > >=) as its first argument (character 5)"},
       {"if(u < gap, 1 N)", "gives if() too few arguments"},
       {"(u < gap) * 1 N", "closing ')'"},

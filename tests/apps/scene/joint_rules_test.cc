@@ -144,7 +144,7 @@ v = { wheel = ")" + speed + "\" }\n" +
   };
   const auto fast = warnings("50 rad/s");
   ASSERT_FALSE(fast.empty());
-  EXPECT_NE(fast.back().find("the rotor wheel is carried by what tilts"), std::string::npos) << fast.back();
+  EXPECT_NE(fast.back().find("the carrier of the rotor wheel tilts"), std::string::npos) << fast.back();
   EXPECT_NE(fast.back().find("10 %"), std::string::npos) << fast.back();
   for (const std::string &warning : warnings("5 rad/s"))
     EXPECT_EQ(warning.find("tilts"), std::string::npos) << warning;

@@ -92,8 +92,8 @@ TEST(SceneOverride, AddsKeysThatAreKnownAndRefusesOthers)
 TEST(SceneOverride, OfAParameterThatNothingDependsOnIsRefused)
 {
   EXPECT_EQ(complaint(small_scene(), {"parameters.radiu=90 mm"}),
-            "--set parameters.radiu=90 mm: no value of the scene depends on the parameter 'radiu', so that it changes "
-            "nothing; did you mean 'radius'?");
+            "--set parameters.radiu=90 mm: no value of the scene depends on the parameter 'radiu', so it has no "
+            "effect; did you mean 'radius'?");
   EXPECT_NO_THROW(scene_of(small_scene(), {"parameters.half=45 mm", "parameters.radius=2*half"}));
   EXPECT_NE(complaint(small_scene(), {"parameters.half=45 mm", "parameters.twice=2*half"}), "");
 }

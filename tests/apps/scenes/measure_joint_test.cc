@@ -348,7 +348,7 @@ TEST(MeasureJoint, BadInputIsReportedWithItsPlace)
   expect_complaint(joint(cam + "to = \"slide\"\nperiod = 3\ntable = [[0, 0], [2, 1], [3, 2]]\n"), "does not close");
   expect_complaint(joint(cam + "to = \"slide\"\nperiod = 3\ntable = [[0, 0], [2, 1], [3, 1e-8]]\n"), "does not close");
   expect_complaint(joint("type = \"screw\"\nfrom = \"shaft\"\nto = \"slide\"\naxis = [0, 0, 1]\npitch = \"1 mm\"\n"),
-                   "does not turn about");
+                   "does not rotate about");
   expect_complaint(
       joint("type = \"rack\"\nfrom = \"shaft\"\nto = \"slide\"\nradius = \"1 m\"\ndirection = [0, 1, 0]\n"),
       "right angles");

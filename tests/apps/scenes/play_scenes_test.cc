@@ -100,7 +100,7 @@ TEST(PointOnPlane, AFailureOfAControlledStepNamesTheSpeedOfFriction)
 bool warned(const SceneRun &motion, const std::string &name)
 {
   for (const std::string &warning : coupling::texts_of(motion.result.findings))
-    if (warning.find("the start lies inside the contact of \"" + name + "\" by ") != std::string::npos)
+    if (warning.find("the initial state penetrates the contact of \"" + name + "\" by ") != std::string::npos)
       return true;
   return false;
 }

@@ -21,7 +21,7 @@ TEST(PeriodicScene, RefusesOptionsThatItsMethodDoesNotTake)
   EXPECT_THAT(words("shooting", [](auto &r) { r.own["starts"] = 3; }), testing::HasSubstr("--method minimise"));
   EXPECT_THAT(words("shooting", [](auto &r) { r.own["damping"] = 0.1; }), testing::HasSubstr("--method settling"));
   EXPECT_THAT(words("settling", [](auto &r) { r.own["lead-in"] = 3; }), testing::HasSubstr("--lead-in"));
-  EXPECT_THAT(words("shooting", [](auto &r) { r.own["lead-in"] = -1; }), testing::HasSubstr("a whole number from 0"));
+  EXPECT_THAT(words("shooting", [](auto &r) { r.own["lead-in"] = -1; }), testing::HasSubstr("an integer from 0"));
   EXPECT_THAT(words("shooting", [](auto &r) { r.check = "shooting"; }), testing::HasSubstr("choose another method"));
   EXPECT_THAT(words("harmonic-balance", [](auto &r) { r.own["harmonics"] = 5000; }),
               testing::HasSubstr("at most 3999"));

@@ -163,7 +163,7 @@ TEST_F(Window, WhatDoesNotRepeatLeavesNoLastPeriod)
     return text + "[body.other]\ntype = 'slider'\naxis = [0, 0, 1]\nmass = 1\n" + formula("other", "direction", force);
   };
   expect_refusal([&] { run({"output.from=last period"}, with("1 N/s*t")); },
-                 "\"formula\" depends on the time and does not repeat with the period of 0.5 s that the loads have");
+                 "\"formula\" depends on the time and does not repeat with the period of 0.5 s of the loads");
   EXPECT_EQ(run({"output.from=last period"}, with("1 N/s*min(t, 0.9 s)")).run->from, 1.5);
   EXPECT_EQ(run({"output.from=last period"}, with("1 N*sin(8*pi/(1 s)*t)")).run->from, 1.5);
   expect_refusal(
@@ -172,7 +172,7 @@ TEST_F(Window, WhatDoesNotRepeatLeavesNoLastPeriod)
         run({"output.from=last period", "start.v.shaft=120 rpm"},
             turning + formula("shaft", "about", "1 N*m*sin(7/(1 s)*t)"));
       },
-      "0.5 s that the rotor starts with");
+      "0.5 s of the initial rotor speed");
 }
 
 /// A motion that is a function of the time is known before the run, ramps and motors after it.

@@ -260,7 +260,7 @@ TEST(ModalSuperposition, NotesWhatIsLostOfAGivenStart)
   const Answer      few(scene.path("method = 'modal'\nmodes = 3", start)),
       all(scene.path("method = 'modal'\nmodes = 30", start));
   EXPECT_THAT(coupling::texts_of(few.result.run->findings),
-              Contains(HasSubstr("of the elastic energy of the given start")));
+              Contains(HasSubstr("of the elastic energy of the given initial state")));
   EXPECT_THAT(coupling::texts_of(all.result.run->findings), testing::IsEmpty());
   EXPECT_NEAR(all[0].max, 1e-3, 1e-6);
 }

@@ -199,5 +199,5 @@ TEST(StudyReport, DrawsOutputsOverAVariedDimension)
   ASSERT_NE(chart, report.pictures.end());
   for (const char *part : {"f [Hz] over wall [mm]", "method = bdf", "method = newmark", "run 2: wall = 20 mm"})
     EXPECT_THAT(chart->second, HasSubstr(part));
-  EXPECT_THAT(report.html, HasSubstr("<strong>30 to 35 Hz</strong><span>f; smallest with wall = 15 mm, method = bdf"));
+  EXPECT_THAT(report.html, HasSubstr("<strong>30 to 35 Hz</strong><span>f; minimum at wall = 15 mm, method = bdf"));
 }

@@ -88,7 +88,7 @@ TEST(StudyFile, ValuesOfOutputsAreComparedWithTheirUnits)
       [] {
         check_units({{{0, {1., {1., 0., 0.}}, "limit: "}}, {}}, {{"nu", ""}});
       },
-      "limit: is in m, but output nu has no unit; give it in such a unit, as a plain number");
+      "limit: is in m, but output nu has no unit; use a matching unit, as a plain number");
   EXPECT_NO_THROW(with("[optimise.goals.F]\nscale = '600 kN'\n[optimise.limits.F]\nleast = 0\nmost = '1 MN'\n")());
   EXPECT_NO_THROW(with("[optimise.goals.F]\nscale = 1e5\n[optimise.goals.G]\nscale = '1 t'\n")());
 }
@@ -164,7 +164,7 @@ TEST(StudyFile, WhatIsWrongIsReportedWithItsPlace)
   says(factorial + "[surface]\nconfidence = 1\n", "confidence: needs a number above 0 and below 1, such as 0.95");
   says(the_scene + "[variables.law]\nkey = 'run.method'\nlevels = ['bdf', 'newmark']\n" + outputs +
            "[design]\ntype = 'full factorial'\n[surface]\n",
-       "variable law takes words, between which there is nothing");
+       "variable law has text as levels, which cannot be interpolated");
   says(factorial + "[optimise.goals.f]\n", "there is no output 'f'; did you mean 'F'?");
   says(the_scene + variables, "needs a table [outputs]");
   says(everything + "run = '1'\n", "'run' is a column of runs.csv already");

@@ -377,7 +377,7 @@ TEST(StudyRuns, AreRefusedBeforeTheFirstWhereTheSceneCannotDoThem)
   expect_refusal(with("outputs.F=\"signals.FP.max\""), "names no signal of the scene");
   expect_refusal(with("outputs.F=\"modes.6\""), "needs the number of a mode from 1 to 5"); // by the first run
   expect_refusal(with("outputs.F=\"events.sheat.count\""), "did you mean 'sheet'?");
-  expect_refusal(with("outputs.F=\"stress.max\""), "give it [output.stress]");
+  expect_refusal(with("outputs.F=\"stress.max\""), "add [output.stress]");
   expect_refusal(with("outputs.F=\"2*Q\""), "there is no 'Q' (character 3)");
   expect_refusal(with("outputs.F=\"signals.F_P.max + 1 kg\""), "\"signals.F_P.max + 1 kg\" adds kg to N");
   expect_refusal(with("outputs.F=\"rise\""), "depends on itself");

@@ -260,7 +260,7 @@ TEST(ResponseSurface, OfATableLeavesOutRunsThatFailedAndReportsIfTooFewAreLeft)
               1e-12);
   for (int run = 5; run < 12; ++run)
     table.runs[run].status = RunStatus::waiting;
-  expect_refusal([&] { fit_surfaces(table); }, "8 of 13 runs failed or wait");
+  expect_refusal([&] { fit_surfaces(table); }, "8 of 13 runs failed or are pending");
   expect_refusal([&] { table.output_index("z"); }, "there are y");
 }
 

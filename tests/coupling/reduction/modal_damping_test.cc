@@ -262,12 +262,16 @@ TEST(ModalDamping, LeavesRigidMotionsOfAFloatingFrameAlone)
   lattice.foundation        = 0.;
   auto frame                = without_dampers(lattice);
   frame.modal_damping_ratio = 0.05;
-  const auto reduced        = reduce_frame(frame, with_modes(20));
-  const auto R              = test::basis_with_modes(frame, 20).T.householderQr().solve(frame.rigid_motions).eval();
+  frame.modal_damping_ratio.named.push_back({0.01, 1}); // the second elastic mode
+  const auto reduced = reduce_frame(frame, with_modes(20));
+  const auto R       = test::basis_with_modes(frame, 20).T.householderQr().solve(frame.rigid_motions).eval();
   EXPECT_LT((R.transpose() * reduced.B * R).norm(), 1e-12 * reduced.B.norm() * R.squaredNorm());
   EXPECT_LT((R.transpose() * reduced.C * R).norm(), 1e-12 * reduced.C.norm() * R.squaredNorm());
   EXPECT_EQ(reduced.frequencies_hz.head(6).norm(), 0.);
   EXPECT_GT(reduced.frequencies_hz(6), 1.);
+  const auto modes = modes_of(reduced, 9);
+  EXPECT_NEAR(modes[6].damping_ratio, 0.05, 1e-10);
+  EXPECT_NEAR(modes[7].damping_ratio, 0.01, 1e-10);
 }
 
 TEST(ErrorEstimate, GivesRefinedFrequenciesBetweenThoseOfTheFullFrameAndTheReducedOnes)
