@@ -93,11 +93,9 @@ void require_stresses(const SceneTable &stress, const Scene &scene)
   case FrameSource::matrices:
     throw stress.error(
         "a frame given by matrices has no material and no elements, so that there are no stresses; give it by 'cad'");
-  case FrameSource::parts:
-    throw stress.error("stresses of a frame of parts are not computed; leave [output.stress] out, or draw the frame in "
-                       "one piece, [frame] cad = ...");
   case FrameSource::reduced_file:
     break; // known when it is read
+  case FrameSource::parts:
   case FrameSource::geometry:
     if (!scene.reduction.reduces())
       throw stress.error("stresses are recovered from the reduced frame; leave out reduction.method = \"none\"");
@@ -176,6 +174,8 @@ void read_stress(const SceneTable &output, Scene &scene)
   scene.stress.given          = true;
   scene.stress.place          = stress.place();
   scene.frame.geometry.stress = true;
+  for (coupling::FramePart &part : scene.frame.parts.parts)
+    part.geometry.stress = true;
   read_instants(stress, scene);
   read_extremes(stress, "largest", scene);
   read_extremes(stress, "smallest", scene);
