@@ -25,6 +25,9 @@ struct LifeLoad
   Eigen::Index n_samples() const { return states.cols(); }
 };
 
+/// @throws std::invalid_argument for a block with another frame
+void check_blocks(Session &session);
+
 /// The load of [life] of a session with its finished run; runs the scenes of its blocks.
 /// @throws std::invalid_argument for a block with another frame, std::runtime_error if one does not come to its end
 LifeLoad life_load(Session &session, const coupling::RunResult &run);

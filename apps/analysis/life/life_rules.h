@@ -15,7 +15,4 @@ DamageRule damage_rule(const LifeRequest &life, const CurveRequest &curve, Stres
 StressMeasure measure_of(const LifeRequest &life);
 Residue       residue_of(const LifeRequest &life);
 
-/// d ln D / d ln(range) of a single range; of one below the cut-off the last slope.
-double slope_at(const SnCurve &curve, double range);
-
 } // namespace gestell::apps
