@@ -13,7 +13,7 @@ namespace gestell::apps
 /// Kinds of computation of a case, executed by CaseRun.
 inline std::vector<std::string> computations()
 {
-  return {"run", "modes", "frf", "periodic", "integrators"};
+  return {"run", "modes", "frf", "periodic", "life", "integrators"};
 }
 
 /// A table of a file, or rows of it.

@@ -99,11 +99,11 @@ LifeLoad half_as_many(const LifeLoad &load)
   return thinned(load, chosen);
 }
 
-/// The states without the highest quarter of the modes.
+/// The states without the higher half of the modes.
 MatrixXd without_high_modes(const ReducedFrame &frame, MatrixXd states)
 {
   const Index modes = frame.M.rows() - frame.n_interface;
-  states.middleRows(frame.n_interface + modes - modes / 4, modes / 4).setZero();
+  states.middleRows(frame.n_interface + modes - modes / 2, modes / 2).setZero();
   return states;
 }
 
@@ -114,24 +114,16 @@ struct OtherLoads
   MatrixXd without_modes;
 };
 
-/// Parts of interfaces, modes and weight, by size; a percent or less is left out.
+/// Parts of statics, which is that of all interfaces (of each alone rigid motions would be a part), and of modes, by
+/// size; a percent or less is left out.
 std::vector<std::pair<std::string, double>> named_shares(const ReducedFrame &frame, const VectorXd &shares)
 {
-  std::vector<std::pair<std::string, double>> named;
-  Index                                       last = 0;
-  for (const fem::Interface &interface : frame.interfaces)
-  {
-    double sum = 0.;
-    for (const int i : interface.coordinates())
-      if (i >= 0)
-        sum += shares[i], last = std::max(last, Index(i) + 1);
-    named.emplace_back("statics of " + interface.name, sum);
-  }
-  for (Index j = last; j < frame.M.rows(); ++j)
+  std::vector<std::pair<std::string, double>> named{{"statics", shares.head(frame.n_interface).sum()}};
+  for (Index j = frame.n_interface; j < frame.M.rows(); ++j)
   {
     const Index mode = j - frame.n_interface;
     named.emplace_back("mode " + std::to_string(mode + 1) +
-                           (mode >= 0 && mode < frame.omega0.size()
+                           (mode < frame.omega0.size()
                                 ? " fixed at the interfaces, " + short_text(frame.omega0[mode] / (2. * M_PI), 3) + " Hz"
                                 : ""),
                        shares[j]);
@@ -164,12 +156,14 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
     const SurfaceDirections &there = group.search.directions[std::size_t(at.point)];
     place.direction                = there.normal.cross(there.weld);
   }
-  const Cycle *largest = nullptr;
+  constexpr double rounding = 1e-6; // of the largest range: stresses are recovered in single precision
+  const Cycle     *largest  = nullptr;
   for (const Cycle &cycle : cycles)
-  {
-    place.cycles += cycle.count;
     if (!largest || cycle.range > largest->range)
       largest = &cycle;
+  for (const Cycle &cycle : cycles)
+  {
+    place.cycles += cycle.range > rounding * largest->range ? cycle.count : 0.;
     if (const double cut_off = group.rule.curve.cut_off(); cut_off > 0.)
       place.utilisation = std::max(place.utilisation, group.rule.equivalent_range(cycle) / cut_off);
   }
@@ -228,7 +222,7 @@ void add_course(const LifeGroup &group, const PointDamage &at, const LifeLoad &l
   result.t.assign(load.t.begin(), load.t.begin() + n);
   result.stress.assign(history.data(), history.data() + n);
   const double span = history.head(n).maxCoeff() - history.head(n).minCoeff();
-  if (load.is_whole && span > 0.)
+  if (span > 0.)
     result.closing = std::abs(history[n - 1] - history[0]) / span;
   if (load.before.cols() > 0)
   {
@@ -378,7 +372,7 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
                        percent(found.stroke_change, 2) + "; let it run longer (run.end = " +
                        short_text(scene.run.options.end) + " s), or start on the orbit (start.rule = \"periodic\")");
   if (found.closing > steady)
-    warnings.push_back("life: the stress at the end of the run differs from that at its start by " +
+    warnings.push_back("life: the stress at the end of the load differs from that at its start by " +
                        percent(found.closing, 2) +
                        " of its range: one repetition does not lead to the next; count a "
                        "window by output.from, or let the run return");

@@ -97,8 +97,8 @@ LifeLoad life_load(Session &session, const coupling::RunResult &run)
   load.sequence.residue = residue_of(life);
   add_run(scene, &life, frame, run, life.repetitions, load);
   const double begin = scene.run.options.begin, length = scene.run.options.end - run.from;
-  load.is_whole = !(run.from > begin);
-  if (!load.is_whole && run.from - length >= begin - load.step)
+
+  if (run.from > begin && run.from - length >= begin - load.step)
     load.before = states_between(scene, frame, run, run.from - length, run.from);
   for (const BlockRequest &block : life.blocks)
     add_block(session, block, frame, load);

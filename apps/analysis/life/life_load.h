@@ -20,8 +20,7 @@ struct LifeLoad
   double              service = 0.; ///< [s] of one repetition
   double              strokes = 0.; ///< of one repetition
   Eigen::MatrixXd     before; ///< states in the interval before that of the run, as long; empty: the run begins later
-  double              step     = 0.;   ///< [s] between samples
-  bool                is_whole = true; ///< the run from its beginning, not from output.from
+  double              step = 0.; ///< [s] between samples
 
   Eigen::Index n_samples() const { return states.cols(); }
 };

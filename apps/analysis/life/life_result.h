@@ -28,7 +28,7 @@ template <class Visitor>
 void describe(Visitor &v, const LifeError &x)
 {
   v("mesh", x.mesh, "1", "stress higher by the disagreement of neighbouring elements");
-  v("modes", x.modes, "1", "without the highest quarter of the modes");
+  v("modes", x.modes, "1", "without the higher half of the modes");
   v("time", x.time, "1", "a third of what every second state changes");
   v("total", x.total(), "1", "their product");
 }
@@ -154,8 +154,7 @@ void describe(Visitor &v, const LifeResult &x)
   v("residue", x.residue, "", "ranges that no cycle closes");
   v("service", x.service, "s", "time in service of one repetition");
   v("strokes_each", x.strokes, "1", "strokes of one repetition");
-  v("closing", x.closing, "1",
-    "difference of the stress between end and start of the run, over the largest range; null: a window of it counts");
+  v("closing", x.closing, "1", "difference of the stress between end and start of the load, over its range");
   v("stroke_change", x.stroke_change, "1",
     "damage of the window before, relative difference; null: the run does not contain it");
   v("places", x.places, "", "worst places, by damage");

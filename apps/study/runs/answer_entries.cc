@@ -229,8 +229,6 @@ void check(const std::vector<std::string> &segments, const Scene &scene)
                          "; modes.number of the scene sets how many are listed");
   else if (segments.front() == "stress" && !scene.stress.given)
     refuse(segments, "asks for stresses, which the scene does not compute; give it [output.stress]");
-  else if (segments.front() == "life" && !scene.life)
-    refuse(segments, "asks for fatigue, which the scene does not compute; give it [life]");
 }
 
 AnswerValue value(const std::vector<std::string> &segments, const Result &result)
