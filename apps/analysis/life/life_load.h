@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/analysis/life/cycles.h"
+#include "apps/analysis/life/damage/cycles.h"
 #include "apps/scene/values/life_request.h"
 #include "apps/session/session.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/analysis/life/damage.h"
-#include "apps/analysis/life/stress_measure.h"
+#include "apps/analysis/life/damage/damage.h"
+#include "apps/analysis/life/damage/stress_measure.h"
 #include "apps/scene/values/life_request.h"
 
 namespace gestell::apps

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/analysis/life/point_stress.h"
+#include "apps/analysis/life/damage/point_stress.h"
 
 namespace gestell::apps
 {

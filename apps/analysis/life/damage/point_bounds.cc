@@ -1,4 +1,4 @@
-#include "apps/analysis/life/point_bounds.h"
+#include "apps/analysis/life/damage/point_bounds.h"
 
 #include <cmath>
 

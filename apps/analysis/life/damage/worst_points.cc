@@ -1,6 +1,6 @@
-#include "apps/analysis/life/worst_points.h"
+#include "apps/analysis/life/damage/worst_points.h"
 
-#include "apps/analysis/life/point_bounds.h"
+#include "apps/analysis/life/damage/point_bounds.h"
 
 #include <algorithm>
 #include <cmath>
