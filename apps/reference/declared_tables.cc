@@ -61,7 +61,11 @@ void add_frame(Tables &tables)
   add("frame.mass", "[frame.mass.NAME]", "Rigid body fastened to the frame, such as a motor or a counterweight.",
       attached_mass_keys());
   add("frame.cut", "[frame.cut.NAME]",
-      "Cut plane; signal `frame.cut.NAME`: transmitted force along the normal, tension positive.", cut_keys());
+      "Cut plane; signals `frame.cut.NAME`: transmitted force along the normal, tension positive, and `V1`, `V2`, `T`, "
+      "`M1`, `M2`.",
+      cut_keys());
+  add("frame.stress_point", "[frame.stress_point.NAME]",
+      "Stress at a point of the surface; signals `frame.stress.NAME.xx` to `xz` and `normal`.", stress_point_keys());
   add("parts", "[frame]", "Frame in several parts, which are reduced separately and then joined.", parts_frame_keys());
   add("frame.part", "[frame.part.NAME]",
       "Part of the frame, with its own surfaces, interfaces `frame.NAME.INTERFACE`, supports, masses and cuts.",
@@ -73,11 +77,10 @@ void add_frame(Tables &tables)
   add("matrices.file_units", "[frame.file_units]", "Units in the files of another program.", file_unit_keys());
   add("matrices.interface", "[frame.interface.NAME]", "Interface: rows of the matrices that are DOFs of a node.",
       matrix_interface_keys());
-  add("matrices.cut", "[frame.cut.NAME]", "Signal `frame.cut.NAME` for a frame given by matrices.",
-      matrix_output_keys());
-  add("matrices.support", "[frame.support.NAME]",
-      "Signal `frame.support.NAME` for a frame given by matrices, or a table for each direction.",
-      matrix_support_keys());
+  for (const OutputFamily &family : output_families())
+    add("matrices." + family.name, "[frame." + family.name + ".NAME]",
+        "Signal `frame." + family.name + ".NAME` for a frame given by matrices, and a table for each component.",
+        family.keys);
   add("material", "[material.NAME]", "Material of the frame and of bodies from CAD.", material_keys());
   add("reduction", "[reduction]", "Reduction of the frame.", reduction_keys());
 }

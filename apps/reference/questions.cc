@@ -47,6 +47,7 @@ const std::vector<Question> &questions()
       {"Which method costs least for an error?", "chart SCENE"},
       {"What changes the result, by how much?", "run SCENE --sensitivities all"},
       {"What do two designs differ in?", "run SCENE --compare OTHER"},
+      {"Will the frame crack, where and after how long?", "life SCENE"},
       {"Which dimension is best?", "study STUDY"},
       {"What does it look like in motion?", "show DIR"},
       {"How do I import a frame of Nastran or another program?", "help frame"},

@@ -163,10 +163,19 @@ public:
   }
   void add(const std::string &name, const fem::CutSpecification &value)
   {
-    const auto &[own, through, normal, place] = value;
+    const auto &[own, through, normal, place, first, about] = value;
     add(name, own);
     add(name + ".through", through);
     add(name + ".normal", normal);
+    add(name + ".first", first);
+    add(name + ".about", about);
+  }
+  void add(const std::string &name, const fem::StressPointSpecification &value)
+  {
+    const auto &[own, at, along, place] = value;
+    add(name, own);
+    add(name + ".at", at);
+    add(name + ".along", along);
   }
   void add(const std::string &name, const fem::SurfaceLoad &value)
   {
@@ -202,7 +211,7 @@ public:
   void add(const fem::FrameSpecification &value)
   {
     const auto &[cad, unit, mesh, material, materials, ratios, rayleigh_mass, rayleigh_stiffness, surfaces, supports,
-                 interfaces, masses, cuts, stress, parts, scripts, sew, place, prestress] = value;
+                 interfaces, masses, cuts, stress_points, stress, parts, scripts, sew, place, prestress] = value;
     add_sources(cad);
     add("unit", unit);
     add("mesh", mesh);
@@ -216,6 +225,7 @@ public:
     add("interface", interfaces);
     add("mass", masses);
     add("cut", cuts);
+    add("stress point", stress_points);
     add("stress", stress);
     add("sew", sew);
     add("parts", parts);

@@ -38,8 +38,10 @@ void add_stress(ReducedStress &reduced, const fem::StressRecovery &stress, const
     to.setZero(fem::stress_components * Eigen::Index(stress.point.size()), T.cols() + 3);
     for (Eigen::Index j = 0; j < T.cols(); ++j)
       to.col(j) = fem::stresses(stress, T.col(j), which).cast<float>();
-    for (Eigen::Index j = 0; j < remainder.cols(); ++j)
-      to.col(T.cols() + j) = fem::stresses(stress, remainder.col(j), which).cast<float>();
+    MatrixXd under_g = fem::stresses(stress, remainder, which);
+    if (const MatrixXd direct = fem::stresses_under_acceleration(stress, which); direct.size() > 0)
+      under_g = under_g.cols() > 0 ? MatrixXd(under_g + direct) : direct;
+    to.middleCols(T.cols(), under_g.cols()) = under_g.cast<float>();
   };
   add(fem::StressOf::mean, reduced.mean);
   add(fem::StressOf::deviation, reduced.deviation);

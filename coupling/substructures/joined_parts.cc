@@ -5,6 +5,7 @@
 #include "coupling/substructures/joint_forces.h"
 #include "coupling/substructures/part_union.h"
 #include "coupling/substructures/require_joints.h"
+#include "coupling/substructures/stress_of_parts.h"
 #include "coupling/substructures/welded_coordinates.h"
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
@@ -312,6 +313,7 @@ JoinedParts join_parts(const std::vector<ReducedFrame> &parts, const FrameOfPart
   fem::FrameMatrices &whole = joined.matrices;
   whole                     = matrices_of(frame, all, with_springs, welded, joined.facts.facts.whole.centre);
   whole.picture             = picture_of(parts, all, welded.G);
+  whole.stress              = stress_of_parts(parts, frame, all, welded.G);
   whole.mass                = joined.facts.mass;
   whole.n_cells             = joined.facts.n_cells;
 

@@ -1,5 +1,7 @@
 #include "coupling/substructures/placed_part.h"
 
+#include "coupling/substructures/stress_of_parts.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -112,6 +114,7 @@ void turn(ReducedFrame &part, const Placement &placement)
   part.translations_load = S.transpose() * (part.translations_load * placement.Q.transpose()).eval();
   turn_outputs(part, placement.Q, S);
   turn_picture(part, placement, S);
+  turn_stress(part.stress, placement.Q, S);
   turn_mass(part.facts.whole, placement);
   for (fem::Interface &interface : part.interfaces)
   {

@@ -2,13 +2,13 @@
 
 #include "fem/assembly/elasticity.h"
 #include "fem/assembly/reference_cell.h"
+#include "fem/assembly/rigid_motions.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <sstream>
 #include <stdexcept>
 
@@ -18,26 +18,49 @@ namespace gestell::fem
 namespace
 {
 
+using Eigen::Vector3d;
+using Motions = Eigen::Matrix<double, 3, 6>; // of a point, for each of the six components
+
 std::string head(const CutSpecification &cut)
 {
   const std::string owner = "cut \"" + cut.name + "\"";
   return cut.place.empty() ? owner : cut.place + ": " + owner;
 }
 
+Vector3d vector_of(const Vector3 &x)
+{
+  return Vector3d(x[0], x[1], x[2]);
+}
+
 /// A plane through the frame, and how far above it points lie.
 struct Plane
 {
-  Eigen::Vector3d through, normal;
+  Vector3d through, normal;
 
-  double height(const Eigen::Vector3d &x) const { return normal.dot(x - through); }
+  double height(const Vector3d &x) const { return normal.dot(x - through); }
 };
 
 Plane plane_of(const CutSpecification &cut)
 {
-  const Eigen::Vector3d normal(cut.normal[0], cut.normal[1], cut.normal[2]);
+  const Vector3d normal = vector_of(cut.normal);
   if (!(normal.norm() > 0.) || !normal.allFinite())
     throw std::invalid_argument(head(cut) + ": the normal is zero; give three numbers such as [0, 0, 1].");
-  return {Eigen::Vector3d(cut.through[0], cut.through[1], cut.through[2]), normal.normalized()};
+  return {vector_of(cut.through), normal.normalized()};
+}
+
+/// Columns n, e_1, e_2.
+Eigen::Matrix3d axes_of(const CutSpecification &cut, const Vector3d &normal)
+{
+  Eigen::Index nearest;
+  normal.cwiseAbs().maxCoeff(&nearest);
+  const Vector3d   first = cut.first ? vector_of(*cut.first).normalized() : Vector3d::Unit((nearest + 1) % 3);
+  const Vector3d   e     = first - first.dot(normal) * normal;
+  constexpr double along = 1e-3; // below it the direction of e is the error of a normal given with few digits
+  if (!(e.norm() > along))
+    throw std::invalid_argument(head(cut) + ": the first direction is along the normal; give one in the plane.");
+  Eigen::Matrix3d axes;
+  axes << normal, e.normalized(), normal.cross(e.normalized());
+  return axes;
 }
 
 /// Distance of the centroid of every cell from the plane, positive where the normal points.
@@ -47,25 +70,190 @@ std::vector<double> heights(const Plane &plane, const QuadraticMesh &mesh)
   result.reserve(mesh.n_cells());
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
-    Eigen::Vector3d centroid  = Eigen::Vector3d::Zero();
-    const int       n_corners = reference_cell(mesh.kind(cell)).n_corners;
+    Vector3d  centroid  = Vector3d::Zero();
+    const int n_corners = reference_cell(mesh.kind(cell)).n_corners;
     for (int k = 0; k < n_corners; ++k)
-      centroid += Eigen::Map<const Eigen::Vector3d>(mesh.points[mesh.nodes(cell)[k]].data());
+      centroid += vector_of(mesh.points[mesh.nodes(cell)[k]]);
     result.push_back(plane.height(centroid / static_cast<double>(n_corners)));
   }
   return result;
 }
 
-/// Nodes of cells below; their share with the cells above is the cut.
-std::vector<char> nodes_below(const QuadraticMesh &mesh, const std::vector<double> &height)
+/// Part of the cells above a plane, and their section.
+struct Slice
 {
-  std::vector<char> below(mesh.n_nodes(), 0);
-  for (int cell = 0; cell < mesh.n_cells(); ++cell)
-    if (height[cell] <= 0.)
-      for (int a = 0; a < mesh.n_nodes_of(cell); ++a)
-        below[mesh.nodes(cell)[a]] = 1;
-  return below;
+  double   volume = 0., above = 0., area = 0.;
+  Vector3d moment = Vector3d::Zero(), area_moment = Vector3d::Zero(); // int x dV above, int x dA
+
+  void add(const Plane &plane, std::array<Vector3d, 4> x);
+
+private:
+  void take(double sign, const Vector3d &a, const Vector3d &b, const Vector3d &c, const Vector3d &d)
+  {
+    const double V = sign * std::abs((b - a).cross(c - a).dot(d - a)) / 6.;
+    above += V;
+    moment += V * (a + b + c + d) / 4.;
+  }
+  void cut(const Vector3d &a, const Vector3d &b, const Vector3d &c)
+  {
+    const double A = 0.5 * (b - a).cross(c - a).norm();
+    area += A;
+    area_moment += A * (a + b + c) / 3.;
+  }
+};
+
+/// A tetrahedron.
+void Slice::add(const Plane &plane, std::array<Vector3d, 4> x)
+{
+  std::sort(x.begin(), x.end(),
+            [&](const Vector3d &a, const Vector3d &b) { return plane.height(a) > plane.height(b); });
+  const auto at = [&](int i, int j) -> Vector3d // of the edge
+  {
+    const double h = plane.height(x[i]);
+    return x[i] + h / (h - plane.height(x[j])) * (x[j] - x[i]);
+  };
+  volume += std::abs((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0])) / 6.;
+  switch (std::count_if(x.begin(), x.end(), [&](const Vector3d &a) { return plane.height(a) > 0.; }))
+  {
+  case 0:
+    return;
+  case 1:
+    take(1., x[0], at(0, 1), at(0, 2), at(0, 3));
+    return cut(at(0, 1), at(0, 2), at(0, 3));
+  case 2: // a prism, by three tetrahedra
+    take(1., x[0], at(0, 2), at(0, 3), x[1]);
+    take(1., at(0, 2), at(0, 3), x[1], at(1, 2));
+    take(1., at(0, 3), x[1], at(1, 2), at(1, 3));
+    cut(at(0, 2), at(0, 3), at(1, 3));
+    return cut(at(0, 2), at(1, 3), at(1, 2));
+  case 3:
+    take(1., x[0], x[1], x[2], x[3]);
+    take(-1., x[3], at(0, 3), at(1, 3), at(2, 3));
+    return cut(at(0, 3), at(1, 3), at(2, 3));
+  default:
+    take(1., x[0], x[1], x[2], x[3]);
+  }
 }
+
+/// Adds a cell, taken as straight.
+void add(Slice &slice, const Plane &plane, const QuadraticMesh &mesh, int cell)
+{
+  std::vector<Vector3d> x;
+  for (const int k : reference_cell(mesh.kind(cell)).node_of_corner)
+    x.push_back(vector_of(mesh.points[mesh.nodes(cell)[k]]));
+  for (const auto &[a, b, c, d] : cell_shape(mesh.kind(cell)).pieces)
+    slice.add(plane, {x[a], x[b], x[c], x[d]});
+}
+
+/// Centroid of the section.
+Vector3d centroid(const Plane &plane, const QuadraticMesh &mesh)
+{
+  Slice section;
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+    add(section, plane, mesh, cell);
+  return section.area > 0. ? Vector3d(section.area_moment / section.area) : plane.through;
+}
+
+/// The six motions v of the nodes: w(x) above, zero below; tied nodes follow those they are tied to.
+class MotionsAbove
+{
+public:
+  enum Side : char
+  {
+    below,
+    above,
+    between
+  };
+
+  MotionsAbove(const QuadraticMesh &mesh, const MultipointConstraints &constraints, const Plane &plane,
+               const std::vector<double> &height, const Eigen::Matrix3d &axes, const Vector3d &about)
+      : mesh_(mesh), constraints_(constraints), about_(about), side_(3 * std::size_t(mesh.n_nodes()), above)
+  {
+    axes_ << axes, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), axes;
+    for (int cell = 0; cell < mesh.n_cells(); ++cell)
+      if (height[cell] <= 0.)
+        for (int a = 0; a < mesh.n_nodes_of(cell); ++a)
+          std::fill_n(side_.begin() + 3 * mesh.nodes(cell)[a], 3, below);
+    for (const int i : loaded(constraints))
+      side_[i] = plane.height(vector_of(mesh.points[i / 3])) > 0. ? above : below;
+    std::vector<int> tied(constraints.ties.size(), -1); // in the order in which they depend on each other
+    for (std::size_t i = 0; i < side_.size(); ++i)
+      if (tie_of(int(i)))
+        tied[constraints.tie_of[i]] = int(i);
+    for (const int i : tied)
+      if (i >= 0)
+        side_[i] = side_of(*tie_of(i));
+  }
+
+  Side side(int displacement) const { return Side(side_[displacement]); }
+
+  Motions w(const Point3 &x) const { return rigid_motions_of_point(x, about_) * axes_; }
+
+  Motions v(int node) const
+  {
+    Motions result = w(mesh_.points[node]);
+    for (int d = 0; d < 3; ++d)
+      if (side(3 * node + d) == below)
+        result.row(d).setZero();
+      else if (side(3 * node + d) == between)
+      {
+        result.row(d).setZero();
+        for (const auto &[i, weight] : *tie_of(3 * node + d))
+          result.row(d) += weight * v(i / 3).row(i % 3);
+      }
+    return result;
+  }
+
+private:
+  /// Displacements on which supports and interfaces act.
+  std::vector<int> loaded(const MultipointConstraints &constraints) const
+  {
+    std::vector<int> all;
+    const auto       add = [&](const Combination &of)
+    {
+      for (const auto &term : of)
+        if (term.first < constraints.first_new())
+          all.push_back(term.first);
+    };
+    for (int i = 0; i < constraints.first_new(); ++i)
+      if (const int tie = constraints.tie_of[i]; constraints.held[i] || (tie >= 0 && !tie_of(i)))
+      {
+        all.push_back(i);
+        add(tie >= 0 ? constraints.ties[tie] : Combination{});
+      }
+    for (const Combination &measure : constraints.measures)
+      add(measure);
+    return all;
+  }
+
+  /// Of a displacement tied to other displacements; null for others, also those tied to the node of an interface.
+  const Combination *tie_of(int displacement) const
+  {
+    const int tie = constraints_.tie_of[displacement];
+    if (tie < 0)
+      return nullptr;
+    const Combination &of = constraints_.ties[tie];
+    return std::all_of(of.begin(), of.end(), [&](const auto &term) { return term.first < constraints_.first_new(); })
+               ? &of
+               : nullptr;
+  }
+
+  char side_of(const Combination &tie) const
+  {
+    const auto is = [&](char which)
+    {
+      return std::all_of(tie.begin(), tie.end(),
+                         [&](const auto &term) { return term.second == 0. || side_[term.first] == which; });
+    };
+    return is(above) ? above : is(below) ? below : between;
+  }
+
+  const QuadraticMesh         &mesh_;
+  const MultipointConstraints &constraints_;
+  Vector3d                     about_;
+  Eigen::Matrix<double, 6, 6>  axes_;
+  std::vector<char>            side_; // [displacements]
+};
 
 [[noreturn]] void refuse(const CutSpecification &cut, const std::vector<double> &height)
 {
@@ -77,83 +265,85 @@ std::vector<char> nodes_below(const QuadraticMesh &mesh, const std::vector<doubl
   throw std::invalid_argument(message.str());
 }
 
-/// Share of a tetrahedron above a plane, from the distances of its corners to the plane.
-double share_above(std::array<double, 4> d)
+/// int rho w dV above the plane less sum_a m_a v_a of the nodes of a cell: its weight not among the loads of the rows.
+Motions weight_between(const Plane &plane, const MotionsAbove &motions, const QuadraticMesh &mesh, int cell,
+                       const Eigen::VectorXd &nodal)
 {
-  std::sort(d.begin(), d.end(), std::greater<double>());
-  const auto positive = std::count_if(d.begin(), d.end(), [](double x) { return x > 0.; });
-  const auto cut      = [&d](int i, int j) { return d[i] / (d[i] - d[j]); }; // of the edge from i to the plane
-  switch (positive)
+  Slice slice;
+  add(slice, plane, mesh, cell);
+  Motions sum = Motions::Zero();
+  if (slice.above > 0. && slice.above < slice.volume)
   {
-  case 0:
-    return 0.;
-  case 1:
-    return cut(0, 1) * cut(0, 2) * cut(0, 3);
-  case 2: // a prism, by three tetrahedra
-    return cut(1, 2) * cut(1, 3) + cut(0, 3) * cut(1, 2) * (1. - cut(1, 3)) + cut(0, 2) * cut(0, 3) * (1. - cut(1, 2));
-  case 3:
-    return 1. - cut(3, 0) * cut(3, 1) * cut(3, 2);
-  default:
-    return 1.;
+    const Vector3d x = slice.moment / slice.above;
+    sum              = slice.above / slice.volume * nodal.sum() * motions.w({x[0], x[1], x[2]});
   }
-}
-
-/// Share of the volume of a cell, taken as straight, above a plane.
-double share_above(const Plane &plane, const QuadraticMesh &mesh, int cell)
-{
-  std::vector<Eigen::Vector3d> x;
-  for (const int k : reference_cell(mesh.kind(cell)).node_of_corner)
-    x.emplace_back(Eigen::Map<const Eigen::Vector3d>(mesh.points[mesh.nodes(cell)[k]].data()));
-  double volume = 0., above = 0.;
-  for (const auto &[a, b, c, d] : cell_shape(mesh.kind(cell)).pieces)
+  for (Eigen::Index a = 0; a < nodal.size(); ++a)
   {
-    const double part = std::abs((x[b] - x[a]).cross(x[c] - x[a]).dot(x[d] - x[a]));
-    volume += part;
-    above += part * share_above({plane.height(x[a]), plane.height(x[b]), plane.height(x[c]), plane.height(x[d])});
+    const int node = mesh.nodes(cell)[a];
+    if (slice.above >= slice.volume)
+      sum += nodal[a] * motions.w(mesh.points[node]);
+    sum -= nodal[a] * motions.v(node);
   }
-  return above / volume;
+  return sum;
 }
 
 } // namespace
 
-FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, const CellMaterials &materials,
-                      const AffineConstraints &affine, double rayleigh_stiffness)
+std::vector<FrameOutput> cut_forces(const CutSpecification &cut, const QuadraticMesh &mesh,
+                                    const CellMaterials &materials, const AffineConstraints &affine,
+                                    double rayleigh_stiffness)
 {
   const Plane               plane  = plane_of(cut);
+  const Eigen::Matrix3d     axes   = axes_of(cut, plane.normal);
   const std::vector<double> height = heights(plane, mesh);
-  const std::vector<char>   below  = nodes_below(mesh, height);
+  const MotionsAbove        motions(mesh, affine.constraints(), plane, height, axes,
+                             cut.about ? vector_of(*cut.about) : centroid(plane, mesh));
 
-  bool            divides = false;
-  double          mass    = 0.; // above the plane, minus that of nodes whose loads the row contains
-  Eigen::VectorXd row     = Eigen::VectorXd::Zero(3 * mesh.n_nodes());
-  CellValues      values(mesh, CellPoints::rule);
+  bool                                divides = false;
+  Motions                             weight  = Motions::Zero();
+  std::vector<Eigen::Triplet<double>> entries;
+  CellValues                          values(mesh, CellPoints::rule);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
-    const int   *nodes      = mesh.nodes(cell);
-    const int    n          = mesh.n_nodes_of(cell);
-    const double share      = share_above(plane, mesh, cell);
-    const bool   stands_out = height[cell] > 0.; // of the cells below
-    const bool   touches    = stands_out && std::any_of(nodes, nodes + n, [&](int node) { return below[node]; });
-    if (!touches && share == (stands_out ? 1. : 0.))
+    const int *nodes   = mesh.nodes(cell);
+    const int  n       = mesh.n_nodes_of(cell);
+    const bool upper   = height[cell] > 0.;
+    const auto usual   = upper ? MotionsAbove::above : MotionsAbove::below;
+    const auto differs = [&](int node)
+    {
+      return motions.side(3 * node) != usual || motions.side(3 * node + 1) != usual ||
+             motions.side(3 * node + 2) != usual;
+    };
+    const bool deforms = std::any_of(nodes, nodes + n, differs);
+    const bool crossed = std::any_of(
+        nodes, nodes + n, [&](int node) { return (plane.height(vector_of(mesh.points[node])) > 0.) != upper; });
+    if (!deforms && !crossed)
       continue;
-    const Eigen::VectorXd nodal = mass_matrix(values.of(cell), materials[cell].rho).rowwise().sum();
-    mass += share * nodal.sum();
-    if (stands_out)
-      for (int a = 0; a < n; ++a)
-        mass -= below[nodes[a]] ? 0. : nodal[a];
-    if (!touches)
+    weight +=
+        weight_between(plane, motions, mesh, cell, mass_matrix(values.of(cell), materials[cell].rho).rowwise().sum());
+    if (!deforms)
       continue;
-    divides                 = true;
-    const Eigen::MatrixXd C = tangent_stiffness(values.of(cell), mesh, materials, cell);
+    divides = true;
+    Eigen::Matrix<double, Eigen::Dynamic, 6> v(3 * n, 6); // of an upper cell less w, without stress
     for (int a = 0; a < n; ++a)
-      if (below[nodes[a]])
-        for (int b = 0; b < n; ++b)
-          row.segment<3>(3 * nodes[b]) -= C.block<3, 3>(3 * a, 3 * b).transpose() * plane.normal;
+      v.middleRows<3>(3 * a) = motions.v(nodes[a]) - double(upper) * motions.w(mesh.points[nodes[a]]);
+    const Eigen::Matrix<double, Eigen::Dynamic, 6> row = tangent_stiffness(values.of(cell), mesh, materials, cell) * v;
+    for (int i = 0; i < 3 * n; ++i)
+      for (int k = 0; k < 6; ++k)
+        entries.emplace_back(3 * nodes[i / 3] + i % 3, k, row(i, k));
   }
   if (!divides)
     refuse(cut, height);
-  const Eigen::VectorXd on_q = affine.gather(row);
-  return {"cut." + cut.name, "N", on_q, rayleigh_stiffness * on_q, mass * plane.normal};
+  Eigen::SparseMatrix<double> rows(affine.n_displacements(), 6);
+  rows.setFromTriplets(entries.begin(), entries.end());
+  std::vector<FrameOutput> outputs;
+  for (int k = 0; k < 6; ++k)
+  {
+    const Eigen::VectorXd on_q = affine.gather(Eigen::VectorXd(rows.col(k)));
+    const auto &[ending, unit] = section_components[k];
+    outputs.push_back({"cut." + cut.name + ending, unit, on_q, rayleigh_stiffness * on_q, weight.col(k)});
+  }
+  return outputs;
 }
 
 } // namespace gestell::fem

@@ -6,26 +6,34 @@
 #include "fem/values/frame_matrices.h"
 #include "fem/values/frame_specification.h"
 
+#include <vector>
+
 namespace gestell::fem
 {
 
 /**
- * Force through a plane, "cut.NAME" [N], tension positive: with n the unit normal,
+ * Forces and moments of the section in a plane, of the part above on the part below: "cut.NAME" [N], the normal force,
+ * tension positive, "cut.NAME.V1", ".V2" [N] along the axes e_1, e_2, and "cut.NAME.T", ".M1", ".M2" [N m] about n,
+ * e_1, e_2 through the point c.  n is the unit normal, e_1 the first direction made perpendicular to it, e_2 = n x e_1.
  *
- *     F = - n . sum_i (C_above u)_i
+ * With w(x) = a for a force along a and w(x) = a x (x - c) for a moment about it,
  *
- * C_above is the stiffness of the cells with the centroid on the side of n, i runs over the nodes that they share with
- * the others. C_above u at these nodes is the force of the part below on the part above, F the component along n of its
- * opposite. A translation of the cells above has no energy, so F is the sum of all loads along n on their other nodes:
- * exact equilibrium for any mesh and plane.  The weight between these nodes and the plane (straight cells) is added, so
- * that at rest F is the weight above the plane; its inertia is not.  Rayleigh damping adds beta C_above u' in the same
- * way; alpha M u', like inertia, is external and not an internal force; modal damping ratios have no force in cells.
- * The force carried across the plane by a rigid interface or a support is not included.
+ *     F = sum_i v_i . (C u)_i,    v_i = w(x_i) at nodes of cells above only, 0 at the others,
+ *
+ * but at nodes of clamped supports and of interfaces v = w above the plane.
+ *
+ * Above are the cells with the centroid on the side of n.  w has no energy in them, so F is the sum of w . f over the
+ * loads f on the nodes above: exact equilibrium for any mesh and plane.  Nodes of tied faces follow the nodes they are
+ * tied to.  The weight between these nodes and the plane is added, so that at rest F is due to the weight above the
+ * plane; its inertia is not.  It and the centroid are exact for cells with plane faces.  Rayleigh damping adds beta C
+ * u' in the same way; alpha M u', like inertia, is external and not an internal force; modal damping ratios have no
+ * force in cells.  A rigid interface or a support that reaches to both sides carries force that is not included.
  *
  * @param rayleigh_stiffness  beta [s] of all cells.
- * @throws std::invalid_argument for a zero normal and for a plane that does not cut the frame.
+ * @throws std::invalid_argument for a zero normal, a first direction along it and a plane that does not cut the frame.
  */
-FrameOutput cut_force(const CutSpecification &cut, const QuadraticMesh &mesh, const CellMaterials &materials,
-                      const AffineConstraints &affine, double rayleigh_stiffness);
+std::vector<FrameOutput> cut_forces(const CutSpecification &cut, const QuadraticMesh &mesh,
+                                    const CellMaterials &materials, const AffineConstraints &affine,
+                                    double rayleigh_stiffness);
 
 } // namespace gestell::fem

@@ -14,6 +14,7 @@
 #include "fem/assembly/sparse_sum.h"
 #include "fem/assembly/supports.h"
 #include "fem/recovery/skin_stress.h"
+#include "fem/recovery/stress_points.h"
 #include "fem/values/frame_matrices.h"
 
 #include <Eigen/Geometry>
@@ -238,7 +239,8 @@ Discretisation discretise(const Mesh &mesh, const FrameSpecification &specificat
   for (std::string &note : rayleigh_at_large(specification))
     frame.notes.push_back(std::move(note));
   for (const CutSpecification &cut : specification.cuts)
-    frame.outputs.push_back(cut_force(cut, quadratic, materials, affine, specification.rayleigh_stiffness));
+    for (FrameOutput &output : cut_forces(cut, quadratic, materials, affine, specification.rayleigh_stiffness))
+      frame.outputs.push_back(std::move(output));
 
   Eigen::VectorXd load;
   SparseMatrix    geometric;
@@ -252,10 +254,15 @@ Discretisation discretise(const Mesh &mesh, const FrameSpecification &specificat
   add_matrices({specification, quadratic, materials, supports, affine, nodes, geometric}, cells, frame);
 
   frame.picture = skin_picture(quadratic, affine);
-  if (specification.stress)
-    frame.stress = skin_stress(
+  if (specification.stress || !specification.stress_points.empty())
+  {
+    StressRecovery recovery = skin_stress(
         quadratic, [&](int cell) -> const Material & { return materials[cell]; }, affine,
         rigid_nodes(supports, coupled));
+    add_stress_points(specification.stress_points, recovery, frame);
+    if (specification.stress)
+      frame.stress = std::move(recovery);
+  }
   return {std::move(frame),
           std::make_shared<const MeshError>(quadratic, materials, affine),
           std::move(load),

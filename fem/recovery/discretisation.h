@@ -19,7 +19,8 @@ namespace gestell::fem
  * q contains the displacements of all nodes that are neither clamped nor tied, then inner coordinates of averaged
  * surfaces, then coordinates (ux uy uz rx ry rz; for a node of the mesh ux uy uz) for each attached mass with its own
  * surfaces and for each interface in the order of the specification.  B contains the dampers of the foundations; modal
- * damping remains a ratio. Outputs: "support.NAME.x|y|z" and "cut.NAME" [N], see support_forces() and cut_force().
+ * damping remains a ratio. Outputs: "support.NAME.x|y|z", "cut.NAME" and "stress.NAME.xx", see support_forces(),
+ * cut_forces() and add_stress_points().
  *
  * Uses the specification except CAD file, mesh options and selectors.  Initialises PETSc (petsc_session()).
  *

@@ -109,13 +109,28 @@ struct AttachedMass
   std::string              place;
 };
 
-/// Plane through the frame; its output is the force across it in direction of `normal`, tension positive.
+/// Plane through the frame; its outputs are the forces and moments across it, see cut_forces().
 struct CutSpecification
 {
-  std::string name;
-  Vector3     through{}; ///< [m]
-  Vector3     normal{0., 0., 1.};
-  std::string place;
+  std::string            name;
+  Vector3                through{}; ///< [m]
+  Vector3                normal{0., 0., 1.};
+  std::string            place;
+  std::optional<Vector3> first{}; ///< direction of the first axis in the plane; default: the axis after the nearest one
+  std::optional<Vector3> about{}; ///< [m] of the moments; default: centroid of the section
+};
+
+/// Endings of the names of section forces, with their units: normal force, shear forces, torsion, bending moments.
+constexpr std::array<std::array<const char *, 2>, 6> section_components{
+    {{"", "N"}, {".V1", "N"}, {".V2", "N"}, {".T", "N m"}, {".M1", "N m"}, {".M2", "N m"}}};
+
+/// Point of the surface with the stress as outputs.
+struct StressPointSpecification
+{
+  std::string            name;
+  Vector3                at{};    ///< [m]
+  std::optional<Vector3> along{}; ///< direction n of a normal stress n . sigma n
+  std::string            place;
 };
 
 /// A static load, spread evenly over surfaces: a total force, and a pressure on the undeformed surface.
@@ -184,6 +199,7 @@ struct FrameSpecification
   std::vector<InterfaceSpecification>    interfaces;
   std::vector<AttachedMass>              masses;
   std::vector<CutSpecification>          cuts;
+  std::vector<StressPointSpecification>  stress_points;
   bool                                   stress  = false; ///< stress recovery is requested
   int                                    parts   = 1;     ///< that the mesh is cut into; 0: chosen by their memory
   Scripts                                scripts = Scripts::harmless;

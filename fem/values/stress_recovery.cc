@@ -21,12 +21,28 @@ Gradients gradients(const StressRecovery::Rows &shape, const Eigen::VectorXd &u)
   return H;
 }
 
+const Eigen::MatrixXf &by_state(const StressRecovery &recovery, StressOf which)
+{
+  return which == StressOf::mean ? recovery.mean_by_state : recovery.deviation_by_state;
+}
+
 } // namespace
+
+Eigen::MatrixXd stresses_under_acceleration(const StressRecovery &recovery, StressOf which)
+{
+  return by_state(recovery, which).rightCols(recovery.mean_by_state.size() > 0 ? 3 : 0).cast<double>();
+}
 
 Eigen::MatrixXd stresses(const StressRecovery &recovery, const Eigen::Ref<const Eigen::MatrixXd> &q, StressOf which)
 {
-  const auto      n = static_cast<Eigen::Index>(recovery.point.size());
-  Eigen::MatrixXd sigma(stress_components * n, q.cols());
+  const auto      n     = static_cast<Eigen::Index>(recovery.point.size());
+  Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(stress_components * n, q.cols());
+  if (const Eigen::MatrixXf &rows = by_state(recovery, which); rows.size() > 0)
+  {
+    for (Eigen::Index j = 0; j < q.rows(); ++j) // in double precision: terms of large rigid motions cancel
+      sigma += rows.col(j).cast<double>() * q.row(j);
+    return sigma;
+  }
   for (Eigen::Index column = 0; column < q.cols(); ++column)
   {
     const Eigen::VectorXd u = recovery.u * q.col(column);

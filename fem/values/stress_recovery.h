@@ -36,11 +36,16 @@ struct StressRecovery
   std::vector<std::string> rigid;
   std::vector<int>         nearby; ///< [points] of `rigid`: has a part in a cell at the point; -1: none
 
+  /// Of a frame of reduced parts in place of the operators above, by (q; g), g the acceleration field [6 points x (n +
+  /// 3); Pa].
+  Eigen::MatrixXf mean_by_state, deviation_by_state;
+
   bool empty() const { return point.empty(); }
 };
 
 /// Components of a stress.
-constexpr int stress_components = 6;
+constexpr int                                         stress_components = 6;
+constexpr std::array<const char *, stress_components> stress_names{"xx", "yy", "zz", "xy", "yz", "xz"};
 
 /// Choice of the gradient.
 enum class StressOf
@@ -51,5 +56,8 @@ enum class StressOf
 
 /// Stresses [6 points x k; Pa] of states q [n x k].
 Eigen::MatrixXd stresses(const StressRecovery &recovery, const Eigen::Ref<const Eigen::MatrixXd> &q, StressOf which);
+
+/// Stresses [6 points x 3; Pa] of a unit acceleration field without motion of q, or empty: none.
+Eigen::MatrixXd stresses_under_acceleration(const StressRecovery &recovery, StressOf which);
 
 } // namespace gestell::fem

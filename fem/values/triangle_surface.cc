@@ -125,4 +125,32 @@ void turn_outwards(TriangleSurface &surface)
         std::swap(surface.triangles[t][1], surface.triangles[t][2]);
 }
 
+namespace
+{
+
+using Eigen::Vector3d;
+
+Vector3d nearest_on_segment(const Vector3d &x, const Vector3d &a, const Vector3d &b)
+{
+  return a + std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0., 1.) * (b - a);
+}
+
+} // namespace
+
+// The foot of the perpendicular if it lies inside; otherwise the nearest point of the three edges.
+Vector3d nearest_on_triangle(const Vector3d &x, const std::array<Vector3d, 3> &corners)
+{
+  const auto &[a, b, c]    = corners;
+  const Vector3d n         = (b - a).cross(c - a).normalized();
+  const Vector3d foot      = x - n.dot(x - a) * n;
+  const auto     is_inside = [&](const Vector3d &p, const Vector3d &q) { return (q - p).cross(foot - p).dot(n) >= 0.; };
+  if (is_inside(a, b) && is_inside(b, c) && is_inside(c, a))
+    return foot;
+  Vector3d best = nearest_on_segment(x, a, b);
+  for (const Vector3d &other : {nearest_on_segment(x, b, c), nearest_on_segment(x, c, a)})
+    if ((other - x).squaredNorm() < (best - x).squaredNorm())
+      best = other;
+  return best;
+}
+
 } // namespace gestell::fem

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <array>
 #include <vector>
 
@@ -25,5 +27,8 @@ int unmatched_edges(const TriangleSurface &surface);
  * @param surface  closed: every edge has two triangles.
  */
 void turn_outwards(TriangleSurface &surface);
+
+/// The point of a triangle with area that is nearest to x.
+Eigen::Vector3d nearest_on_triangle(const Eigen::Vector3d &x, const std::array<Eigen::Vector3d, 3> &corners);
 
 } // namespace gestell::fem

@@ -1,5 +1,7 @@
 #include "tests/support/brick_mesh.h"
 
+#include "tests/support/box_mesh.h"
+
 #include <algorithm>
 #include <map>
 #include <random>
@@ -121,6 +123,31 @@ fem::Mesh prism_mesh(const std::array<int, 3> &n, const std::array<double, 3> &s
 {
   return filled_mesh(
       n, size, [](int, int, int) { return fem::CellKind::prism; }, distortion);
+}
+
+fem::Mesh tied_mesh(const std::array<double, 3> &size)
+{
+  fem::Mesh       mesh = brick_mesh({3, 2, 2}, {0.5 * size[0], size[1], size[2]});
+  const fem::Mesh more = box_mesh({3, 3, 3}, {0.5 * size[0], size[1], size[2]}, 0.2);
+  const int       n = int(mesh.points.size()), n_skin = int(mesh.skin.size());
+  for (const auto &x : more.points)
+    mesh.points.push_back({x[0] + 0.5 * size[0], x[1], x[2]});
+  for (const auto &[a, b, c, d] : more.cells)
+    mesh.cells.push_back({a + n, b + n, c + n, d + n});
+  for (const auto &[a, b, c] : more.skin)
+    mesh.skin.push_back({a + n, b + n, c + n});
+  fem::MeshTie tie;
+  for (const int face : more.surfaces.at("x0"))
+    tie.faces.push_back({more.skin[face][0] + n, more.skin[face][1] + n, more.skin[face][2] + n, -1});
+  for (int hexahedron = int(mesh.cells.size()); hexahedron < mesh.n_cells(); ++hexahedron)
+    tie.cells.push_back(hexahedron);
+  tie.solids = {"far", "near"};
+  mesh.ties.push_back(tie);
+  mesh.surfaces["x1"].clear();
+  for (const int face : more.surfaces.at("x1"))
+    mesh.surfaces["x1"].push_back(face + n_skin);
+  mesh.cell_solid.assign(mesh.n_cells(), 0);
+  return mesh;
 }
 
 } // namespace gestell::test

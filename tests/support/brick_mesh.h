@@ -27,4 +27,8 @@ fem::Mesh brick_mesh(const std::array<int, 3> &n, const std::array<double, 3> &s
 /// Of prisms.
 fem::Mesh prism_mesh(const std::array<int, 3> &n, const std::array<double, 3> &size, double distortion = 0.);
 
+/// A half of hexahedra, and one of tetrahedra whose nodes are others, tied to it halfway along x; "x0" and "x1" are its
+/// ends.
+fem::Mesh tied_mesh(const std::array<double, 3> &size);
+
 } // namespace gestell::test

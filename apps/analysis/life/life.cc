@@ -1,9 +1,10 @@
 #include "apps/analysis/analysis_entry.h"
 #include "apps/analysis/life/life_damage.h"
 #include "apps/analysis/life/life_rules.h"
+#include "apps/analysis/life/life_skin.h"
 #include "apps/analysis/life/life_twins.h"
+#include "apps/analysis/life/weld_points.h"
 
-#include "apps/session/stress_answer.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -58,6 +59,20 @@ public:
     for (const WeldRequest &weld : life.welds)
       damage_rule(life, weld.curve.value_or(life.curve), weld.shear ? StressKind::shear : StressKind::direct);
   }
+  /// Checks what needs the frame, before the run costs time.
+  void before_motion(RunInProgress &run) override
+  {
+    const Scene                  &scene = run.session.scene();
+    const coupling::ReducedFrame *frame = run.session.machine().machine.model().reduced_frame();
+    if (!frame || frame->stress.empty())
+      throw std::invalid_argument(scene.life->place +
+                                  ": the reduced frame was written without stresses; write it again "
+                                  "by `gestell reduce` of a scene with [life]");
+    const LifeSkin skin = skin_of(*frame);
+    for (const WeldRequest &weld : scene.life->welds)
+      weld_points(weld, scene.frame.geometry.surfaces, frame->stress, skin);
+    check_blocks(run.session);
+  }
   /// A failure leaves the run intact; a run that stopped early has no life.
   AnalysisOutcome compute(Session &session, Result &result) const override
   {
@@ -65,16 +80,11 @@ public:
     if (!result.run->failure.empty() || result.run->interrupted || !scene.life)
       return AnalysisOutcome::done;
     session.progress()("life", -1.);
-    const coupling::ReducedFrame *frame = session.machine().machine.model().reduced_frame();
-    if (!frame || frame->stress.empty())
-      throw std::invalid_argument(scene.life->place +
-                                  ": the reduced frame was written without stresses; write it again "
-                                  "by `gestell reduce` of a scene with [life]");
     try
     {
       const LifeLoad load   = life_load(session, *result.run);
       const auto     before = std::clock();
-      LifeResult     found  = life_of(scene, *frame, load);
+      LifeResult     found  = life_of(scene, *session.machine().machine.model().reduced_frame(), load);
       found.cpu_s           = double(std::clock() - before) / CLOCKS_PER_SEC;
       if (refine_)
         refine_error(session, found);
@@ -104,8 +114,7 @@ AnalysisEntry life_analysis()
 {
   return analysis_entry<Life, LifeResult>(
       "life", "compute the fatigue damage of the frame and the places where it cracks first",
-      {"gestell life apps/scenes/press_life.toml",
-       "gestell life apps/scenes/press_life.toml --set \"life.curve.class=90\""},
+      {"gestell life apps/scenes/press.toml --set life.curve.class=71"},
       {{"life.csv", "worst places with damage and life, with `[life]`", content_of<LifeResult, life_places_csv>},
        {"life_cycles.csv", "cycles at the worst place, by damage", content_of<LifeResult, life_cycles_csv>},
        {"life.vtp", "damage and life on the frame in ParaView, as logarithms", content_of<LifeResult, life_vtp>}},

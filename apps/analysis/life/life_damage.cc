@@ -1,9 +1,9 @@
 #include "apps/analysis/life/life_damage.h"
 
+#include "apps/analysis/life/damage/worst_points.h"
 #include "apps/analysis/life/life_rules.h"
 #include "apps/analysis/life/life_skin.h"
 #include "apps/analysis/life/weld_points.h"
-#include "apps/analysis/life/worst_points.h"
 #include "apps/output/values/stress_result.h"
 #include "coupling/frame/stress_field.h"
 #include "fem/values/number_text.h"

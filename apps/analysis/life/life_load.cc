@@ -5,6 +5,7 @@
 #include "fem/values/number_text.h"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -64,28 +65,42 @@ std::string frame_words(const ReducedFrame &frame)
          count_text(std::size_t(frame.M.rows() - frame.n_interface), "mode");
 }
 
-/// The run of another scene, with the states and stresses that are needed here.
-void add_block(Session &own, const BlockRequest &block, const ReducedFrame &frame, LifeLoad &load)
+/// Another scene on this frame, with the states and stresses that are needed here.
+std::unique_ptr<Session> block_session(Session &own, const BlockRequest &block, const ReducedFrame &frame)
 {
   Variant variant               = Variant::of_file(block.file, {}, own.variant().scripts);
   Scene   scene                 = variant.scene();
   scene.frame.geometry.stress   = true;
-  scene.run.options.states.step = load.step;
-  const std::string what        = block.place + ": the scene \"" + scene.name + "\" ";
-  Session           other(std::move(variant), std::move(scene), {own.progress(), own.interruption()});
-  other.check_run();
-  const ReducedFrame *there = other.machine().machine.model().reduced_frame();
+  scene.run.options.states.step = own.scene().run.options.states.step;
+  const std::string place       = block.place + ": the scene \"" + scene.name + "\" ";
+  auto              other =
+      std::make_unique<Session>(std::move(variant), std::move(scene), Watch{own.progress(), own.interruption()});
+  other->check_run();
+  const ReducedFrame *there = other->machine().machine.model().reduced_frame();
   if (!there || !same_frame(frame, *there))
-    throw std::invalid_argument(what + "has another frame (" + (there ? frame_words(*there) : "none") +
+    throw std::invalid_argument(place + "has another frame (" + (there ? frame_words(*there) : "none") +
                                 ") than this one (" + frame_words(frame) +
                                 "); let both extend one scene, and change no key of the frame");
-  const Result result = other.run();
+  return other;
+}
+
+void add_block(Session &own, const BlockRequest &block, const ReducedFrame &frame, LifeLoad &load)
+{
+  const auto   other  = block_session(own, block, frame);
+  const Result result = other->run();
   if (!result.run->failure.empty() || result.run->interrupted)
-    throw std::runtime_error(what + "does not come to its end: " + result.run->failure);
-  add_run(other.scene(), other.scene().life.get(), frame, *result.run, block.repetitions, load);
+    throw std::runtime_error(block.place + ": the run of \"" + other->scene().name +
+                             "\" does not come to its end: " + result.run->failure);
+  add_run(other->scene(), other->scene().life.get(), frame, *result.run, block.repetitions, load);
 }
 
 } // namespace
+
+void check_blocks(Session &session)
+{
+  for (const BlockRequest &block : session.scene().life->blocks)
+    block_session(session, block, *session.machine().machine.model().reduced_frame());
+}
 
 LifeLoad life_load(Session &session, const coupling::RunResult &run)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/analysis/life/cycles.h"
+#include "apps/analysis/life/damage/cycles.h"
 #include "apps/scene/values/life_request.h"
 #include "apps/session/session.h"
 
@@ -24,6 +24,9 @@ struct LifeLoad
 
   Eigen::Index n_samples() const { return states.cols(); }
 };
+
+/// @throws std::invalid_argument for a block with another frame
+void check_blocks(Session &session);
 
 /// The load of [life] of a session with its finished run; runs the scenes of its blocks.
 /// @throws std::invalid_argument for a block with another frame, std::runtime_error if one does not come to its end

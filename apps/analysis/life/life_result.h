@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/analysis/life/damage.h"
+#include "apps/analysis/life/damage/damage.h"
 #include "apps/output/describe/described.h"
 #include "apps/output/report/section.h"
 #include "apps/output/text/csv.h"

@@ -69,12 +69,4 @@ Residue residue_of(const LifeRequest &life)
   return life.residue == "half" ? Residue::half : Residue::repeated;
 }
 
-double slope_at(const SnCurve &curve, double range)
-{
-  for (const SnPiece &piece : curve.pieces)
-    if (range >= piece.from)
-      return piece.slope;
-  return curve.pieces.back().slope;
-}
-
 } // namespace gestell::apps

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/analysis/life/damage.h"
-#include "apps/analysis/life/stress_measure.h"
+#include "apps/analysis/life/damage/damage.h"
+#include "apps/analysis/life/damage/stress_measure.h"
 #include "apps/scene/values/life_request.h"
 
 namespace gestell::apps
@@ -14,8 +14,5 @@ DamageRule damage_rule(const LifeRequest &life, const CurveRequest &curve, Stres
 /// Of places without a direction.
 StressMeasure measure_of(const LifeRequest &life);
 Residue       residue_of(const LifeRequest &life);
-
-/// d ln D / d ln(range) of a single range; of one below the cut-off the last slope.
-double slope_at(const SnCurve &curve, double range);
 
 } // namespace gestell::apps

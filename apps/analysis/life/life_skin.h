@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/analysis/life/stress_measure.h"
+#include "apps/analysis/life/damage/stress_measure.h"
 #include "coupling/frame/reduced_frame.h"
 
 #include <Eigen/Core>

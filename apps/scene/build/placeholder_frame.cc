@@ -1,5 +1,6 @@
 #include "apps/scene/build/placeholder_frame.h"
 
+#include "fem/values/stress_recovery.h"
 #include "fem/values/two_pi.h"
 
 #include <Eigen/Eigenvalues>
@@ -20,7 +21,9 @@ using Eigen::Vector3d;
 
 constexpr double one_direction = 1e-9; ///< directions that differ by less are one
 
-coupling::ReducedFrame without_physics(std::vector<fem::Interface> interfaces, const std::vector<std::string> &outputs)
+using NameAndUnit = std::pair<std::string, std::string>;
+
+coupling::ReducedFrame without_physics(std::vector<fem::Interface> interfaces, const std::vector<NameAndUnit> &outputs)
 {
   coupling::ReducedFrame frame;
   int                    n = 0;
@@ -32,8 +35,8 @@ coupling::ReducedFrame without_physics(std::vector<fem::Interface> interfaces, c
   frame.n_interface       = n;
   frame.translations_load = MatrixXd::Zero(n, 3);
   frame.interfaces        = std::move(interfaces);
-  for (const auto &name : outputs)
-    frame.outputs.push_back({name, "N", Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)});
+  for (const auto &[name, unit] : outputs)
+    frame.outputs.push_back({name, unit, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)});
   return frame;
 }
 
@@ -51,14 +54,22 @@ std::vector<fem::Interface> six_motions_of(const std::vector<fem::InterfaceSpeci
   return interfaces;
 }
 
-std::vector<std::string> outputs_of(const fem::FrameSpecification &specification)
+std::vector<NameAndUnit> outputs_of(const fem::FrameSpecification &specification)
 {
-  std::vector<std::string> outputs;
+  std::vector<NameAndUnit> outputs;
   for (const auto &cut : specification.cuts)
-    outputs.push_back("cut." + cut.name);
+    for (const auto &[ending, unit] : fem::section_components)
+      outputs.emplace_back("cut." + cut.name + ending, unit);
   for (const auto &support : specification.supports)
     for (const std::string direction : {"x", "y", "z"})
-      outputs.push_back("support." + support.name + "." + direction);
+      outputs.emplace_back("support." + support.name + "." + direction, "N");
+  for (const auto &point : specification.stress_points)
+  {
+    for (const char *component : fem::stress_names)
+      outputs.emplace_back("stress." + point.name + "." + component, "Pa");
+    if (point.along)
+      outputs.emplace_back("stress." + point.name + ".normal", "Pa");
+  }
   return outputs;
 }
 
@@ -69,22 +80,22 @@ coupling::ReducedFrame stand_in_for(const fem::FrameSpecification &specification
 
 coupling::ReducedFrame stand_in_for(const coupling::FrameOfParts &frame)
 {
-  std::vector<std::string> outputs;
+  std::vector<NameAndUnit> outputs;
   for (const coupling::FramePart &part : frame.parts)
-    for (const std::string &output : outputs_of(part.geometry))
-      outputs.push_back(part.name + "." + output);
+    for (const auto &[name, unit] : outputs_of(part.geometry))
+      outputs.emplace_back(part.name + "." + name, unit);
   for (const coupling::FrameJoint &joint : frame.joints)
-    for (const auto &[name, unit] : coupling::joint_outputs(joint))
-      outputs.push_back(name);
+    for (const NameAndUnit &output : coupling::joint_outputs(joint))
+      outputs.push_back(output);
   return without_physics(six_motions_of(coupling::interfaces_in_frame(frame)), outputs);
 }
 
 /// Only the sizes of matrices that are too large for a quick examination.
 coupling::ReducedFrame stand_in_for(const fem::FrameMatrices &matrices)
 {
-  std::vector<std::string> outputs;
+  std::vector<NameAndUnit> outputs;
   for (const auto &output : matrices.outputs)
-    outputs.push_back(output.name);
+    outputs.emplace_back(output.name, output.unit);
   return without_physics(matrices.interfaces, outputs);
 }
 

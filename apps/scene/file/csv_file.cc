@@ -59,9 +59,8 @@ CsvFile parsed(const std::string &name, std::istream &in)
     }
     table.lines.push_back({number, csv_cells(text, separator)});
     if (table.lines.back().cells.size() != table.head.size())
-      throw std::invalid_argument(
-          table.place(number) + "has " + std::to_string(table.lines.back().cells.size()) +
-          " cells, but the table has this number of columns: " + std::to_string(table.head.size()));
+      throw std::invalid_argument(table.place(number) + "has " + std::to_string(table.lines.back().cells.size()) +
+                                  " cells instead of " + std::to_string(table.head.size()) + ", one for each column");
   }
   if (table.head.empty())
     throw std::invalid_argument(name + ": is empty; its first line must name the columns");

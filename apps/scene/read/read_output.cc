@@ -88,11 +88,9 @@ void require_stresses(const SceneTable &asking, const Scene &scene)
     throw asking.error("there is no frame, so there are no stresses" + remedy);
   case FrameSource::matrices:
     throw asking.error("a frame given by matrices has no elements, so stresses cannot be computed; give it by 'cad'");
-  case FrameSource::parts:
-    throw asking.error("stresses of a frame of parts are not available" + remedy +
-                       ", or draw the frame in one piece, [frame] cad = ...");
   case FrameSource::reduced_file:
     break; // known when it is read
+  case FrameSource::parts:
   case FrameSource::geometry:
     if (!scene.reduction.reduces())
       throw asking.error("stresses need a reduced frame; remove reduction.method = \"none\"");
@@ -176,6 +174,8 @@ void read_stress(const SceneTable &output, Scene &scene)
   scene.stress.given          = true;
   scene.stress.place          = stress.place();
   scene.frame.geometry.stress = true;
+  for (coupling::FramePart &part : scene.frame.parts.parts)
+    part.geometry.stress = true;
   read_instants(stress, scene);
   read_extremes(stress, "largest", scene);
   read_extremes(stress, "smallest", scene);

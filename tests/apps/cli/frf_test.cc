@@ -17,8 +17,8 @@ TEST(FrfCommand, WritesTableSummaryAndReport)
   const Folder folder("frf");
   const auto   answer = gestell(press + "--from frame.crown.uz --to frame.table.uz,F_P --points 50" + folder.option());
   expect_answer(answer, 0,
-                {"receptance of the machine linearised at the start of the scene, in motion",
-                 "frame.table.uz/frame.crown.uz [m/N]", "F_P/frame.crown.uz [N/N]", "closed: 'rod'"});
+                {"The receptance of the machine linearised in the initial state, in motion",
+                 "frame.table.uz/frame.crown.uz [m/N]", "F_P/frame.crown.uz [N/N]", "closed contacts: 'rod'"});
   const std::string csv = read(folder.results() / "frf.csv");
   EXPECT_EQ(csv.substr(0, csv.find("F_P")),
             "frequency [Hz],frame.table.uz/frame.crown.uz re [m/N],frame.table.uz/frame.crown.uz im [m/N],"

@@ -78,7 +78,7 @@ TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
 }
 
 /// Three quarters of a period are one rise and fall; the stress does not return to where it began.
-TEST(LifeRun, ALoadThatIsNotAStrokeWarns)
+TEST(LifeRun, AnOpenLoadWarns)
 {
   const Bar bar("life_short");
   expect_answer(bar.life("run = { end = '1.75 s' }\noutput = { from = '1 s' }\n"), 0,

@@ -129,7 +129,9 @@ TEST(ImportedFrame, IsProvedByCheckAndGivesAWarningWithExitCodes)
                        {"frame: rigid motions of the nodes: mass 100 kg by x, centre [0", "free"});
   tests::expect_answer(check("GRID,1,,0.,0.,0.\nGRID,2,,1.,1.,0.\n"), 0,
                        {"warning", "positions of nodes do not match the stiffness"});
-  tests::expect_answer(check("GRID,1,,0.,0.,0.\n"), 2, {"s.toml:3: frame.stiffness", "no position of node 2"});
+  tests::expect_answer(
+      check("GRID,1,,0.,0.,0.\n"), 2,
+      {"s.toml:3: frame.stiffness", "no position for 1 of the 2 nodes in the matrices, such as node 2"});
 }
 
 TEST(MatrixFormat, OfAnotherNameIsRefused)

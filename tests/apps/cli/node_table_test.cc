@@ -84,7 +84,7 @@ TEST_F(NodeTable, MistakesAreReportedWithFileLineAndRemedy)
   expect(complaint("name,x,y,uz\n"), {"has no column 'z'"});
   expect(complaint("name,x [kg],y,z\n"), {"'x [kg]'", "unit of length"});
   expect(complaint(""), {"is empty"});
-  expect(complaint(head + "top,0,0,0\n"), {"nodes.csv:2: has 4 cells", "has 5"});
+  expect(complaint(head + "top,0,0,0\n"), {"nodes.csv:2: has 4 cells", "instead of 5"});
   expect(complaint(head + "top,0,0,one,3\n"), {"nodes.csv:2: column 'z'", "'one'"});
   expect(complaint(head + "top,0,0,nan,3\n"), {"'nan'"});
   expect(complaint(head + "top,0,0,0,1.5\n"), {"integer"});
@@ -205,7 +205,7 @@ TEST_F(NodeTable, AMassThatCountsNamedRowsOnlyIsNotThatOfTheFrame)
   const auto        part = read(table, some).frame.matrices;
   EXPECT_EQ(part.mass, 0.);
   ASSERT_EQ(part.statements.size(), 1u);
-  expect(part.statements[0], {"not known", "translations", "total_mass"});
+  expect(part.statements[0], {"unknown", "translations", "total_mass"});
   EXPECT_EQ(read(table, "total_mass = \"250 kg\"\n" + some).frame.matrices.mass, 250.);
   EXPECT_EQ(read(table).frame.matrices.mass, 200.) << "every row is that of a node";
 }

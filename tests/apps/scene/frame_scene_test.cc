@@ -34,6 +34,28 @@ TEST(SceneFrame, MassesMaterialsAndPointsBecomeTheSpecification)
   EXPECT_DOUBLE_EQ(lug->radius, 0.05);
 }
 
+TEST(SceneFrame, SectionsAndStressPointsHaveSignals)
+{
+  const std::string points = "[frame.stress_point.root]\nat = [0, 0, \"1 m\"]\nalong = [0, 0, 2]\n"
+                             "[frame.stress_point.web]\nat = [0, 0, 1]\n";
+  const auto frame = scene_of(cad_scene("[frame.cut.columns]", points + "[frame.cut.columns]\nfirst = [1, 0, 0]\n"
+                                                                        "about = [0, 0, \"1 m\"]\n"))
+                         .frame.geometry;
+  EXPECT_EQ(frame.cuts.at(0).first, (fem::Vector3{1., 0., 0.}));
+  EXPECT_EQ(frame.cuts.at(0).about, (fem::Vector3{0., 0., 1.}));
+  ASSERT_EQ(frame.stress_points.size(), 2u);
+  EXPECT_EQ(frame.stress_points[0].at, (fem::Vector3{0., 0., 1.}));
+  EXPECT_FALSE(frame.stress_points[1].along);
+  const auto said = [&](const std::string &signal)
+  { return complaint(cad_scene("[frame.cut", points + "[output.signals]\ns = \"" + signal + "\"\n[frame.cut")); };
+  for (const char *signal : {"frame.cut.columns", "frame.cut.columns.M2", "frame.stress.root.xz",
+                             "frame.stress.root.normal", "frame.stress.web.xx"})
+    EXPECT_EQ(said(signal), "") << signal;
+  EXPECT_NE(said("frame.stress.web.normal").find("there is no \"frame.stress.web.normal\""), std::string::npos);
+  EXPECT_NE(complaint(cad_scene("[frame.cut", "[frame.stress_point.root]\n[frame.cut")).find("'at'"),
+            std::string::npos);
+}
+
 TEST(SceneFrame, ANodeTakesForcesAndPointsAtItsPositionButNothingThatTurnsWithIt)
 {
   const std::string node = "[frame.interface.lug]\ncoupling = \"node\"\nposition = [1, 0, 0]\n";

@@ -85,7 +85,8 @@ TEST_F(ImportedFrame, RefusesFilesThatDoNotBelongTogether)
   expect(scene.warnings.at(0), {"1 row of it are not in the stiffness", "node 99, ux"});
   expect(scene.frame.matrices.statements.at(0), {"mass: 1 row of the stiffness have none", "node 11, ux"});
   folder.write("nodes.csv", "node,x,y,z\n11,0,0,0\n12,1,0,0\n");
-  refused(both + "rows = 'a.dof'\nnodes = 'nodes.csv'\n", {"no position of node 7 and 1 more of 4"});
+  refused(both + "rows = 'a.dof'\nnodes = 'nodes.csv'\n",
+          {"no position for 2 of the 4 nodes in the matrices, such as node 7"});
   folder.write("nodes.csv", "node,x,y,z,ux\n11,0,0,0,1\n");
   refused(both + "rows = 'a.dof'\nnodes = 'nodes.csv'\n", {"both 'node' and 'ux'"});
   folder.write("nodes.csv", "x,y,z\n0,0,0\n");

@@ -74,6 +74,23 @@ TEST(MatrixFrame, HasNoMeshToCut)
                         "parts: cuts the mesh of a frame from 'cad'; a frame that is given by matrices has no mesh");
 }
 
+TEST(MatrixFrame, TakesRowsOfSectionsSupportsAndStressesByComponents)
+{
+  const std::string rows    = "stiffness_row = [1, 2, 3]\nacceleration_row = [0, 0, 4]\n";
+  const auto        outputs = test::scene_of(chain + "[frame.cut.low]\n" + rows + "[frame.cut.low.M1]\n" + rows +
+                                             "[frame.support.foot.z]\n" + rows + "[frame.stress.root.xz]\n" + rows)
+                           .frame.matrices.outputs;
+  std::vector<std::string> found;
+  for (const auto &output : outputs)
+  {
+    found.push_back(output.name + " " + output.unit);
+    EXPECT_EQ(output.on_q, Eigen::Vector3d(1., 2., 3.));
+    EXPECT_EQ(output.under_acceleration, Eigen::Vector3d(0., 0., 4.));
+  }
+  EXPECT_EQ(found, (std::vector<std::string>{"cut.low N", "cut.low.M1 N m", "support.foot.z N", "stress.root.xz Pa"}));
+  tests::expect_refusal([&] { test::scene_of(chain + "[frame.cut.low.M3]\n" + rows); }, "M3");
+}
+
 TEST(MatrixFrame, WithInnerRowsFallsAsTheoryAndAsTheSparseFrame)
 {
   const auto   chain = scene();

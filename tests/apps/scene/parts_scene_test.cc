@@ -110,7 +110,6 @@ TEST(PartsScene, RefusesWhatDoesNotFit)
       {middle + "[frame.joint.outer]\ntype = 'tie rod'\nbetween = ['arm.end', 'tip.rear']\n", "diameter"},
       {middle + outer + "[frame.part.more]\nsame_as = 'arms'\n", "there is no part 'arms' with its own geometry"},
       {middle + outer + "[frame.part.more]\nsame_as = 'arm'\nmaterial = 'steel'\n", "is that of 'arm';"},
-      {middle + outer + "[output.stress]\n", "stresses of a frame of parts are not available"},
       {middle + outer + "[reduction]\nmethod = 'none'\n", "parts are joined after their reduction"},
       {middle + outer + "[reduction]\ninside = 'free-interface'\n", "does not retain the joined interfaces"}};
   for (const auto &[joints, words] : refused)

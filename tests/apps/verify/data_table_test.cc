@@ -20,7 +20,7 @@ TEST(DataTable, QuotedCellsHoldCommasAndDoubledQuotes)
 TEST(DataTable, ALineWithACellTooFewIsRefused)
 {
   expect_refusal([] { apps::table_of("events", "t,name\n1\n"); },
-                 "events:2: has 1 cells, but the table has this number of columns: 2");
+                 "events:2: has 1 cells instead of 2, one for each column");
 }
 
 TEST(DataTable, AFormulaOfColumnsIsACell)

@@ -126,7 +126,8 @@ fem::FrameSpecification with_all_values(fem::FrameSpecification frame)
   frame.interfaces.push_back({"top", {"feet"}, fem::InterfaceCoupling::rigid, fem::Vector3{}, "", 0.01, 1});
   frame.masses.push_back(
       {"motor", 100., Eigen::Matrix3d::Identity(), fem::Vector3{}, "top", {"feet"}, fem::InterfaceCoupling::rigid, ""});
-  frame.cuts.push_back({"middle", {0., 0., 1.}, {0., 0., 1.}, ""});
+  frame.cuts.push_back({"middle", {0., 0., 1.}, {0., 0., 1.}, "", fem::Vector3{1., 0., 0.}, fem::Vector3{}});
+  frame.stress_points.push_back({"root", {0., 0., 1.}, fem::Vector3{0., 1., 0.}, ""});
   return frame;
 }
 
@@ -216,6 +217,10 @@ TEST_F(ContentKey, HasEveryValueAsAnIngredientOfItsOwn)
     recipe.expect("mass.1.centre" + direction, [i](Specification &f) { (*f.masses[0].centre)[i] = 0.1; });
     recipe.expect("cut.1.through" + direction, [i](Specification &f) { f.cuts[0].through[i] += 0.5; });
     recipe.expect("cut.1.normal" + direction, [i](Specification &f) { f.cuts[0].normal[i] += 0.5; });
+    recipe.expect("cut.1.first" + direction, [i](Specification &f) { (*f.cuts[0].first)[i] += 0.5; });
+    recipe.expect("cut.1.about" + direction, [i](Specification &f) { (*f.cuts[0].about)[i] += 0.5; });
+    recipe.expect("stress point.1.at" + direction, [i](Specification &f) { f.stress_points[0].at[i] += 0.5; });
+    recipe.expect("stress point.1.along" + direction, [i](Specification &f) { (*f.stress_points[0].along)[i] += 0.5; });
   }
   surface("cylinder.radius", [](Selector &s) { s.cylinder->radius = 0.2; });
   surface("group", [](Selector &s) { s.group = "feet of iron"; });
@@ -248,6 +253,8 @@ TEST_F(ContentKey, HasEveryValueAsAnIngredientOfItsOwn)
   recipe.expect("mass.1.coupling", [](Specification &f) { f.masses[0].coupling = fem::InterfaceCoupling::average; });
   recipe.expect("cut", [](Specification &f) { f.cuts.push_back(f.cuts[0]); });
   recipe.expect("cut.1", [](Specification &f) { f.cuts[0].name = "foot"; });
+  recipe.expect("stress point", [](Specification &f) { f.stress_points.push_back(f.stress_points[0]); });
+  recipe.expect("stress point.1", [](Specification &f) { f.stress_points[0].name = "foot"; });
   recipe.expect("stress", [](Specification &f) { f.stress = true; });
   recipe.expect("parts", [](Specification &f) { f.parts = 3; });
   recipe.expect("sew", [](Specification &f) { f.sew = 1e-4; });

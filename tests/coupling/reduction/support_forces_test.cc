@@ -22,10 +22,11 @@ using Eigen::VectorXd;
 /// A bar on its feet, with a node on its top and a plane through its middle.
 fem::FrameMatrices bar_on(const fem::Support &feet)
 {
-  auto specification       = free_steel();
-  specification.supports   = {feet};
-  specification.interfaces = {interface("top", {"z1"}, fem::InterfaceCoupling::average)};
-  specification.cuts       = {{"middle", {{0., 0., 0.8}}, {{0., 0., 1.}}, "press.toml:50: frame.cut.middle"}};
+  auto specification          = free_steel();
+  specification.supports      = {feet};
+  specification.interfaces    = {interface("top", {"z1"}, fem::InterfaceCoupling::average)};
+  specification.cuts          = {{"middle", {{0., 0., 0.8}}, {{0., 0., 1.}}, "press.toml:50: frame.cut.middle"}};
+  specification.stress_points = {{"side", {0.4, 0.1, 0.7}, {}, "press.toml:60: frame.stress_point.side"}};
   return fem::discretise(box_mesh({{2, 2, 6}}, {{0.4, 0.3, 1.5}}, 0.25), specification);
 }
 
@@ -85,7 +86,7 @@ TEST(SupportForces, AnswerTheForcesAtAnInterfaceWhateverModesAreOmitted)
     }
 }
 
-TEST(SupportForces, AndCutsAtRestAreThoseOfTheFullFrame)
+TEST(SupportForces, CutsAndStressesAtRestAreThoseOfTheFullFrame)
 {
   const Vector3d g(1., -2., -9.81);
   for (const auto &frame : bars())
@@ -93,12 +94,14 @@ TEST(SupportForces, AndCutsAtRestAreThoseOfTheFullFrame)
     const ReducedFrame reduced = coupling::reduce_frame(frame, with_modes(2));
     const VectorXd     q       = statics(frame, frame.acceleration_load * g);
     const VectorXd     p       = reduced.C.lu().solve(reduced.translations_load * g);
-    ASSERT_EQ(frame.outputs.size(), 4u);
+    ASSERT_EQ(frame.outputs.size(), 6u + 3u + 6u);
     for (const fem::FrameOutput &full : frame.outputs)
     {
+      const double scale =
+          full.unit == "Pa" ? 1e3 : 1.; // of a stress to forces in N, with sections of 0.1 m^2 and more
       const fem::FrameOutput &few = output_of(reduced, full.name);
       EXPECT_NEAR(few.on_q.dot(p) + few.under_acceleration.dot(g), full.on_q.dot(q) + full.under_acceleration.dot(g),
-                  rounding * frame.mass * g.norm())
+                  rounding * scale * frame.mass * g.norm())
           << full.name;
     }
   }

@@ -1,5 +1,6 @@
 #include "fem/recovery/skin_stress.h"
 
+#include "fem/assembly/mesh_ties.h"
 #include "fem/assembly/quadratic_mesh.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
@@ -92,8 +93,11 @@ TEST(SkinStress, OfALinearStrainIsExactOnAnyMesh)
     H << 1e-4 * x[2], 0., 1e-4 * x[0], -1e-4 * x[1], 4e-4 * x[1] - 1e-4 * x[0], 0., 0., 3e-4 * x[2], 3e-4 * x[1];
     return constant + H;
   };
-  const double scale = E * 4e-4;
-  for (const auto &mesh : {bar_mesh(2), brick_mesh({{8, 2, 2}}, {{length, width, height}})})
+  const double                scale = E * 4e-4;
+  const std::array<double, 3> size  = {length, width, height};
+  const auto mixed = [](int i, int, int) { return i < 4 ? fem::CellKind::hexahedron : fem::CellKind::prism; };
+  for (const auto &mesh : {bar_mesh(2), brick_mesh({8, 2, 2}, size, 0.2), prism_mesh({8, 2, 2}, size, 0.2),
+                           filled_mesh({8, 2, 2}, size, mixed, 0.2)})
   {
     const auto     frame = fem::discretise(mesh, free_bar(0.3));
     const VectorXd q     = nodal(mesh, field);
@@ -102,6 +106,77 @@ TEST(SkinStress, OfALinearStrainIsExactOnAnyMesh)
     EXPECT_EQ(frame.stress.triangles, frame.picture.triangles)
         << "with one material its points are those of the picture";
   }
+}
+
+/// A box of 1 x 0.3 x 0.2 m bent to an arc of 1 rad, its edges along the arc curved.
+fem::Mesh arc_mesh(int n)
+{
+  fem::Mesh  mesh = box_mesh({4 * n, n, n}, {1., 0.3, 0.2});
+  const auto bent = [](double x, double y, double z) {
+    return fem::Point3{(1. + y) * std::sin(x), (1. + y) * std::cos(x) - 1., z};
+  };
+  for (const auto &cell : mesh.cells)
+    for (int a = 0; a < 4; ++a)
+      for (int b = 0; b < 4; ++b)
+        if (cell[a] < cell[b])
+        {
+          const fem::Point3 &p = mesh.points[cell[a]], &q = mesh.points[cell[b]];
+          mesh.middles[{cell[a], cell[b]}] = bent(0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * (p[2] + q[2]));
+        }
+  for (auto &point : mesh.points)
+    point = bent(point[0], point[1], point[2]);
+  return mesh;
+}
+
+TEST(SkinStress, InCellsWithCurvedSidesIsExactIfConstantAndConvergesWithTheSquareOfTheSize)
+{
+  Matrix3d constant;
+  constant << 1., 2., -3., 0.5, -1.5, 4., 2.5, -0.7, 0.3;
+  constant *= 1e-4;
+  const auto linear = [&](const Vector3d &x) -> Vector3d { return constant * x; };
+  const auto arc    = arc_mesh(2);
+  EXPECT_LT(largest_error(fem::discretise(arc, free_bar(0.3)), nodal(arc, linear),
+                          [&](const Vector3d &) { return hooke(constant, 0.3); }),
+            1e-11 * E * 4e-4);
+
+  const Vector3d k(3., -2., 1.), along(1e-4, 2e-4, -1e-4);
+  const auto     wave  = [&](const Vector3d &x) -> Vector3d { return std::sin(k.dot(x)) * along; };
+  const auto     error = [&](int n)
+  {
+    const auto mesh = arc_mesh(n);
+    return largest_error(fem::discretise(mesh, free_bar(0.3)), nodal(mesh, wave),
+                         [&](const Vector3d &x) { return hooke(std::cos(k.dot(x)) * along * k.transpose(), 0.3); });
+  };
+  EXPECT_NEAR(std::log2(error(2) / error(4)), 2., 0.3);
+}
+
+TEST(SkinStress, OfALinearStrainIsExactAcrossATieOfMeshesThatDoNotMatch)
+{
+  const auto field = [](const Vector3d &x) -> Vector3d
+  { return 1e-4 * Vector3d(x[0] * x[2], x[1] * x[1] - x[0] * x[1], x[2] * x[1]); };
+  const auto gradient = [](const Vector3d &x) -> Matrix3d
+  { return 1e-4 * (Matrix3d() << x[2], 0., x[0], -x[1], 2. * x[1] - x[0], 0., 0., x[2], x[1]).finished(); };
+  const auto                 quad = fem::quadratic_mesh(tied_mesh({length, width, height}));
+  fem::MultipointConstraints constraints(quad.n_nodes());
+  fem::tie_meshes(quad, {}, constraints);
+  const fem::AffineConstraints affine(constraints);
+  const fem::Material          steel = free_bar(0.3).material;
+  fem::FrameMatrices           frame;
+  frame.stress = fem::skin_stress(quad, [&](int) -> const fem::Material & { return steel; }, affine, {});
+  ASSERT_LT(affine.n_coordinates(), 3 * quad.n_nodes());
+  VectorXd q(affine.n_coordinates());
+  for (int i = 0; i < 3 * quad.n_nodes(); ++i)
+    if (affine.coordinate(i) >= 0)
+      q[affine.coordinate(i)] = field(Vector3d(quad.points[i / 3].data()))[i % 3];
+  std::vector<int> point_of(quad.n_nodes(), -1); // of the picture, as it numbers its points
+  for (const auto &face : quad.skin)
+    for (int k = 0; k < 3; ++k)
+      if (int &point = point_of[face[k]]; point < 0)
+      {
+        point = int(frame.picture.points.size());
+        frame.picture.points.push_back(quad.points[face[k]]);
+      }
+  EXPECT_LT(largest_error(frame, q, [&](const Vector3d &x) { return hooke(gradient(x), 0.3); }), 1e-10 * E * 4e-4);
 }
 
 TEST(SkinStress, ConvergesWithTheSquareOfTheSize)

@@ -148,7 +148,8 @@ const std::vector<Key> &frame_keys()
       key::table("support", {}, "`[frame.support.NAME]`").by_default(""),
       key::table("interface", {}, "`[frame.interface.NAME]`, at least one").by_default(""),
       key::table("mass", {}, "`[frame.mass.NAME]`").by_default(""),
-      key::table("cut", {}, "`[frame.cut.NAME]`").by_default("")};
+      key::table("cut", {}, "`[frame.cut.NAME]`").by_default(""),
+      key::table("stress_point", {}, "`[frame.stress_point.NAME]`").by_default("")};
   return keys;
 }
 
@@ -241,9 +242,22 @@ const std::vector<Key> &cut_keys()
 {
   static const std::vector<Key> keys = {
       key::table("plane",
-                 {key::direction("normal", "normal, along which the force is measured"),
+                 {key::direction("normal", "normal n, along which the force is measured"),
                   key::vector("through", kind::length, "point of the plane")},
-                 "plane that cuts the frame")};
+                 "plane that cuts the frame"),
+      key::direction("first", "direction of the first axis e1, made perpendicular to n; the second is n x e1")
+          .by_default("the global axis that follows the one nearest to n, in the order x, y, z, x"),
+      key::vector("about", kind::length, "point about which moments are taken").by_default("centroid of the section")};
+  return keys;
+}
+
+const std::vector<Key> &stress_point_keys()
+{
+  static const std::vector<Key> keys = {
+      key::vector("at", kind::length,
+                  "point on the surface; the nearest one of the mesh is used and its distance printed"),
+      key::direction("along", "direction n of the normal stress `normal`, n . sigma n, such as across a weld")
+          .by_default("no `normal`")};
   return keys;
 }
 

@@ -15,6 +15,7 @@ const std::vector<Key> &surface_keys();
 const std::vector<Key> &support_keys();
 const std::vector<Key> &interface_keys();
 const std::vector<Key> &cut_keys();
+const std::vector<Key> &stress_point_keys();
 const std::vector<Key> &attached_mass_keys();
 
 } // namespace gestell::apps

@@ -1,5 +1,8 @@
 #include "apps/scene/read/frame/matrix_keys.h"
 
+#include "fem/values/frame_specification.h"
+#include "fem/values/stress_recovery.h"
+
 namespace gestell::apps
 {
 namespace
@@ -23,12 +26,6 @@ const std::vector<Key> &matrix_name_keys()
                                         name("stiffness", "KAAX, STIFFNESS, or the only name with K"),
                                         name("damping", "BAAX, DAMPING, or the only name with B")};
   return keys;
-}
-
-Key direction_key(const std::string &name)
-{
-  return key::table(name, matrix_output_keys(), "row of the force along " + name)
-      .by_default("the rows cover all directions");
 }
 
 } // namespace
@@ -77,7 +74,8 @@ const std::vector<Key> &matrix_frame_keys()
           .by_default("by the rows of `nodes`"),
       key::table("interface", {}, "`[frame.interface.NAME]`, at least one, or a named node").by_default(""),
       key::table("support", {}, "`[frame.support.NAME]`").by_default(""),
-      key::table("cut", {}, "`[frame.cut.NAME]`").by_default("")};
+      key::table("cut", {}, "`[frame.cut.NAME]`").by_default(""),
+      key::table("stress", {}, "`[frame.stress.NAME]`").by_default("")};
   return keys;
 }
 
@@ -119,11 +117,28 @@ const std::vector<Key> &matrix_output_keys()
   return keys;
 }
 
-const std::vector<Key> &matrix_support_keys()
+const std::vector<OutputFamily> &output_families()
 {
-  static const std::vector<Key> keys =
-      joined({{direction_key("x"), direction_key("y"), direction_key("z")}, matrix_output_keys()});
-  return keys;
+  static const std::vector<OutputFamily> families = []
+  {
+    std::vector<OutputFamily> all = {
+        {"cut", {}, {}}, {"support", {{"x", "N"}, {"y", "N"}, {"z", "N"}}, {}}, {"stress", {}, {}}};
+    for (std::size_t i = 1; i < fem::section_components.size(); ++i)
+      all[0].components.emplace_back(fem::section_components[i][0] + 1,
+                                     fem::section_components[i][1]); // without the dot
+    for (const char *component : fem::stress_names)
+      all[2].components.emplace_back(component, "Pa");
+    all[2].components.emplace_back("normal", "Pa");
+    for (auto &[family, components, keys] : all)
+    {
+      for (const auto &[name, unit] : components)
+        keys.push_back(key::table(name, matrix_output_keys(), "rows of the component " + name + " [" + unit + "]")
+                           .by_default("none"));
+      keys = joined({keys, matrix_output_keys()});
+    }
+    return all;
+  }();
+  return families;
 }
 
 } // namespace gestell::apps

@@ -171,8 +171,26 @@ fem::CutSpecification read_cut(const SceneTable &any)
 {
   const SceneTable table = any.declared(cut_keys());
   check_thing_name(table);
-  const auto plane = table.table("plane");
-  return {table.name(), plane.vector("through"), plane.direction("normal"), table.place()};
+  const auto            plane = table.table("plane");
+  fem::CutSpecification cut{table.name(), plane.vector("through"), plane.direction("normal"), table.place()};
+  if (table.has("first"))
+    cut.first = table.direction("first");
+  if (table.has("about"))
+    cut.about = table.vector("about");
+  return cut;
+}
+
+fem::StressPointSpecification read_stress_point(const SceneTable &any)
+{
+  const SceneTable table = any.declared(stress_point_keys());
+  check_thing_name(table);
+  fem::StressPointSpecification point;
+  point.name  = table.name();
+  point.place = table.place();
+  point.at    = table.vector("at");
+  if (table.has("along"))
+    point.along = table.direction("along");
+  return point;
 }
 
 /// '*' matches any letters, '?' one letter.
@@ -368,6 +386,8 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
     specification.cuts.push_back(read_cut(table));
   if (const auto table = frame.optional_table("prestress"))
     specification.prestress = read_surface_loads(*table, scene, specification);
+  for (const auto &table : frame.tables("stress_point"))
+    specification.stress_points.push_back(read_stress_point(table));
   check_overlaps(frame, specification);
   const bool is_mesh = ending == ".msh" || ending == ".inp";
   specification.mesh =

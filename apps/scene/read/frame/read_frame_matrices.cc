@@ -188,21 +188,9 @@ std::vector<fem::Interface> read_matrix_interfaces(const SceneTable &frame, cons
   return interfaces;
 }
 
-/// The directions x, y, z for which a support has tables.
-std::vector<std::string> directions_of(const SceneTable &support)
-{
-  std::vector<std::string> directions;
-  for (const std::string direction : {"x", "y", "z"})
-    if (support.has(direction))
-      directions.push_back(direction);
-  return directions;
-}
-
 /// A force read off the frame: stiffness_row . q + damping_row . q' + acceleration_row . g.
-fem::FrameOutput read_output(const SceneTable &any, const std::string &before, Eigen::Index n)
+fem::FrameOutput read_output(const SceneTable &table, const std::string &name, const std::string &unit, Eigen::Index n)
 {
-  const SceneTable table = any.declared(matrix_output_keys());
-  check_thing_name(table);
   const auto row = [&](const std::string &key, const Kind &kind, Eigen::Index size, const std::string &needed)
   {
     const auto values = table.numbers(key, kind);
@@ -212,14 +200,30 @@ fem::FrameOutput read_output(const SceneTable &any, const std::string &before, E
   };
   const std::string coordinates = "the frame has " + std::to_string(n) + " coordinates";
   fem::FrameOutput  output;
-  output.name = before + table.name();
-  output.unit = "N";
+  output.name = name;
+  output.unit = unit;
   output.on_q = row("stiffness_row", kind::stiffness_entry, n, coordinates);
   output.on_v =
       table.has("damping_row") ? row("damping_row", kind::damping_entry, n, coordinates) : Eigen::VectorXd::Zero(n);
   if (table.has("acceleration_row"))
     output.under_acceleration = row("acceleration_row", kind::mass_entry, 3, "x, y, z take three");
   return output;
+}
+
+/// Rows of an output itself, required if it has no components, and of those.
+void read_outputs(const SceneTable &any, const OutputFamily &family, Eigen::Index n,
+                  std::vector<fem::FrameOutput> &outputs)
+{
+  const SceneTable table = any.declared(family.keys);
+  check_thing_name(table);
+  const std::string             name = family.name + "." + table.name();
+  std::vector<fem::FrameOutput> components;
+  for (const auto &[component, unit] : family.components)
+    if (table.has(component))
+      components.push_back(read_output(table.table(component), name + "." + component, unit, n));
+  if (components.empty() || table.has("stiffness_row"))
+    outputs.push_back(read_output(table, name, family.name == "stress" ? "Pa" : "N", n));
+  outputs.insert(outputs.end(), components.begin(), components.end());
 }
 
 /// q of a unit translation in x, y, z: given, or read off the nodes and interfaces if every row belongs to one.
@@ -302,14 +306,9 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
 
   matrices.interfaces = read_matrix_interfaces(frame, given, nodes, n);
   matrices.picture    = read_node_picture(frame, nodes, n);
-  for (const auto &table : frame.tables("cut"))
-    matrices.outputs.push_back(read_output(table, "cut.", n));
-  for (const auto &table : frame.tables("support")) // by matrix_support_keys()
-    if (const auto directions = directions_of(table); directions.empty())
-      matrices.outputs.push_back(read_output(table, "support.", n));
-    else
-      for (const auto &direction : directions)
-        matrices.outputs.push_back(read_output(table.table(direction), "support." + table.name() + ".", n));
+  for (const OutputFamily &family : output_families())
+    for (const auto &table : frame.tables(family.name))
+      read_outputs(table, family, n, matrices.outputs);
 
   if (!given.rows.empty())
   {

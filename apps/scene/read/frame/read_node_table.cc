@@ -192,10 +192,9 @@ void require_places(const SceneTable &frame, const std::string &key, const std::
     if (places.count(number) == 0)
       without.push_back(number);
   if (!without.empty())
-    throw frame.error(key, "has no position of node " + std::to_string(without.front()) +
-                               (without.size() > 1 ? " and " + std::to_string(without.size() - 1) + " more" : "") +
-                               " of " + std::to_string(nodes.size()) +
-                               ", which have rows in the matrices; is it of another model?");
+    throw frame.error(key, "has no position for " + std::to_string(without.size()) + " of the " +
+                               std::to_string(nodes.size()) + " nodes in the matrices, such as node " +
+                               std::to_string(without.front()) + "; does it belong to another model?");
 }
 
 coupling::ModelNodes model_nodes(const std::string &path, const std::map<long, TableNode> &nodes, double length,

@@ -1,6 +1,6 @@
 // Rainflow counts: the standard's example, closed cases, and counts by crossings of intervals.
 
-#include "apps/analysis/life/cycles.h"
+#include "apps/analysis/life/damage/cycles.h"
 #include "tests/support/test.h"
 
 #include <random>

@@ -1,6 +1,6 @@
 // S-N curves at their knees, mean stress along lines of constant R, and the three rules of Miner.
 
-#include "apps/analysis/life/damage.h"
+#include "apps/analysis/life/damage/damage.h"
 #include "tests/support/refusal.h"
 
 #include <random>

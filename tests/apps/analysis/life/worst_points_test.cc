@@ -1,7 +1,7 @@
 // Stress measures, the seminorm of damage, and the search of the worst points against counting the cycles of all.
 
-#include "apps/analysis/life/damage_bounds.h"
-#include "apps/analysis/life/worst_points.h"
+#include "apps/analysis/life/damage/damage_bounds.h"
+#include "apps/analysis/life/damage/worst_points.h"
 #include "tests/support/test.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-#include "apps/analysis/life/mean_stress.h"
+#include "apps/analysis/life/damage/mean_stress.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "apps/analysis/life/stress_measure.h"
+#include "apps/analysis/life/damage/stress_measure.h"
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/analysis/life/point_stress.h"
+#include "apps/analysis/life/damage/point_stress.h"
 
 namespace gestell::apps
 {
@@ -16,7 +16,7 @@ public:
   /// Of each row of a point.
   Eigen::VectorXd of_rows(const MeasureRows &rows, const Eigen::MatrixXd &S) const;
   /// Closer, of the signed measure, from some of the samples.
-  double of_samples(int point) const;
+  Eigen::VectorXd of_samples(const std::vector<int> &points) const;
 
 private:
   Eigen::VectorXd of_rows(const MeasureRows &rows, const PointStress &parts, const coupling::Stress &offset) const;
@@ -30,10 +30,12 @@ private:
     std::vector<LoadBlock> within;
   };
   std::vector<SignedParts> signed_parts(const Eigen::MatrixXd &S) const;
+  double of_samples(const SignedParts &parts, const PointStress &S, const Eigen::MatrixXd &sigma) const;
 
-  const PointStresses &stresses_;
-  DamageBounds         bounds_;
-  Eigen::MatrixXd      borders_; ///< states at the borders of the short windows [n x borders]
+  const PointStresses      &stresses_;
+  DamageBounds              bounds_;
+  Eigen::MatrixXd           borders_; ///< states at the borders of the short windows [n x borders]
+  std::vector<Eigen::Index> border_;  ///< of each short window the first one; the other follows
 };
 
 } // namespace gestell::apps

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/analysis/life/damage.h"
-#include "apps/analysis/life/stress_measure.h"
+#include "apps/analysis/life/damage/damage.h"
+#include "apps/analysis/life/damage/stress_measure.h"
 #include "coupling/frame/reduced_stress.h"
 
 #include <Eigen/Core>
@@ -10,26 +10,6 @@
 
 namespace gestell::apps
 {
-
-/// Which points, how many of the worst, and which scalar of their stresses.
-struct DamageSearch
-{
-  StressMeasure                  measure = StressMeasure::critical_plane;
-  std::vector<SurfaceDirections> directions; ///< [points] or empty: not known
-  std::vector<char>              counts;     ///< [points] included in the search
-  int                            worst    = 1;
-  double                         distance = 0.; ///< [m] between any two of the worst points, see `position`
-  std::vector<Eigen::Vector3d>   position;      ///< [points], needed for a distance > 0
-  double                         factor = 1.;   ///< on stresses (hot spot, safety), > 0
-};
-
-struct PointDamage
-{
-  int                         point  = -1;
-  double                      damage = 0.; ///< of one repetition of the load
-  Eigen::Matrix<double, 1, 6> row =
-      Eigen::Matrix<double, 1, 6>::Zero(); ///< of a linear measure, of `critical_plane` the worst
-};
 
 struct WorstPoints
 {

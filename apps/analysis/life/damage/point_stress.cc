@@ -1,4 +1,4 @@
-#include "apps/analysis/life/point_stress.h"
+#include "apps/analysis/life/damage/point_stress.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "apps/analysis/life/damage.h"
+#include "apps/analysis/life/damage/damage.h"
 
 #include <algorithm>
 #include <cmath>

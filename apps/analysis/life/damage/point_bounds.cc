@@ -1,4 +1,4 @@
-#include "apps/analysis/life/point_bounds.h"
+#include "apps/analysis/life/damage/point_bounds.h"
 
 #include <cmath>
 
@@ -34,11 +34,17 @@ PointBounds::PointBounds(const PointStresses &stresses, const std::vector<int> &
 {
   if (!stresses.is_signed())
     return;
-  borders_.resize(stresses.states().rows(), Index(bounds_.short_windows().size()) * 2);
-  Index k = 0;
+  std::vector<std::int64_t> samples; // windows of a block share their borders
   for (const LoadBlock &window : bounds_.short_windows())
-    for (const std::int64_t sample : {window.first, window.end})
-      borders_.col(k++) = stresses.states().col(sample);
+  {
+    if (samples.empty() || samples.back() != window.first)
+      samples.push_back(window.first);
+    border_.push_back(Index(samples.size()) - 1);
+    samples.push_back(window.end);
+  }
+  borders_.resize(stresses.states().rows(), Index(samples.size()));
+  for (Index k = 0; k < borders_.cols(); ++k)
+    borders_.col(k) = stresses.states().col(samples[std::size_t(k)]);
 }
 
 std::vector<PointBounds::SignedParts> PointBounds::signed_parts(const MatrixXd &S) const
@@ -105,41 +111,53 @@ VectorXd PointBounds::of_rows(const MeasureRows &rows, const PointStress &parts,
   return bound;
 }
 
-double PointBounds::of_samples(int point) const
+VectorXd PointBounds::of_samples(const std::vector<int> &points) const
 {
-  const MatrixXd    S       = stresses_.matrices({point});
-  const SignedParts parts   = signed_parts(S).front();
-  const MatrixXd    sigma   = borders_.transpose() * S.transpose();
-  const VectorXd    border  = signed_history(sigma);
-  const VectorXd    bending = bounds_.bending(parts.norms);
-  const auto       &windows = bounds_.short_windows();
+  const MatrixXd S     = stresses_.matrices(points);
+  const MatrixXd sigma = borders_.transpose() * S.transpose();
+  const auto     parts = signed_parts(S);
+  VectorXd       bound(points.size());
+  for (Index i = 0; i < bound.size(); ++i)
+    bound[i] = of_samples(parts[std::size_t(i)], S.middleRows<6>(6 * i), sigma.middleCols<6>(6 * i));
+  return bound;
+}
+
+double PointBounds::of_samples(const SignedParts &parts, const PointStress &S, const MatrixXd &sigma) const
+{
+  const VectorXd border  = signed_history(sigma);
+  const VectorXd bending = bounds_.bending(parts.norms);
+  const auto    &windows = bounds_.short_windows();
 
   // all samples where the sign may change, elsewhere the borders of short windows
   LoadSequence           load{{}, stresses_.load().residue};
   std::vector<double>    history;
   std::vector<SizeCount> remainder;
+  VectorXd               inside;
   auto                   run = parts.within.begin();
   for (std::size_t w = 0; w < windows.size(); ++w)
   {
     const LoadBlock &window = windows[w];
-    if (w == 0 || windows[w - 1].end != window.first) // of a block; windows of one share their borders
+    const Index      first = border_[w], end = first + 1;
+    if (w == 0 || windows[w - 1].end != window.first) // of a block
     {
       load.blocks.push_back({std::int64_t(history.size()), 0, window.repetitions});
-      history.push_back(border[2 * Index(w)]);
+      history.push_back(border[first]);
     }
     while (run != parts.within.end() && run->end <= window.first)
-      ++run;
+      inside.resize(0), ++run;
     if (run != parts.within.end() && run->first <= window.first)
     {
-      const VectorXd inside = signed_history(
-          stresses_.states().middleCols(window.first + 1, window.end - window.first).transpose() * S.transpose());
-      history.insert(history.end(), inside.data(), inside.data() + inside.size());
+      if (inside.size() == 0)
+        inside = signed_history(stresses_.states().middleCols(run->first, run->end - run->first + 1).transpose() *
+                                S.transpose());
+      history.insert(history.end(), inside.data() + (window.first + 1 - run->first),
+                     inside.data() + (window.end + 1 - run->first));
     }
     else
     {
-      const coupling::Stress sum = sigma.row(2 * Index(w)) + sigma.row(2 * Index(w) + 1);
-      const double arc = std::abs(border[2 * Index(w)]) + std::abs(border[2 * Index(w) + 1]) - coupling::von_mises(sum);
-      history.push_back(border[2 * Index(w) + 1]);
+      const double arc = std::abs(border[first]) + std::abs(border[end]) -
+                         coupling::von_mises((sigma.row(first) + sigma.row(end)).transpose());
+      history.push_back(border[end]);
       remainder.push_back(
           {2. * (bending[Index(w)] + std::max(0., arc)), 2. * window.repetitions * double(window.end - window.first)});
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/analysis/life/damage.h"
+#include "apps/analysis/life/damage/damage.h"
 
 #include <Eigen/Core>
 

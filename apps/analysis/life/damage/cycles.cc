@@ -1,4 +1,4 @@
-#include "apps/analysis/life/cycles.h"
+#include "apps/analysis/life/damage/cycles.h"
 
 #include <algorithm>
 #include <cassert>

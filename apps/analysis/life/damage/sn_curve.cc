@@ -1,4 +1,4 @@
-#include "apps/analysis/life/sn_curve.h"
+#include "apps/analysis/life/damage/sn_curve.h"
 
 #include <algorithm>
 #include <cmath>

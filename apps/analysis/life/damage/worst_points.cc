@@ -1,6 +1,6 @@
-#include "apps/analysis/life/worst_points.h"
+#include "apps/analysis/life/damage/worst_points.h"
 
-#include "apps/analysis/life/point_bounds.h"
+#include "apps/analysis/life/damage/point_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -126,34 +126,35 @@ WorstPoints worst_points(const coupling::ReducedStress &stress, const MatrixXd &
   for (std::size_t i = 0; i < points.size(); ++i)
     queue.push({first[Index(i)], points[i], !stresses.is_signed()});
 
-  constexpr std::size_t at_once = 8; // evaluated before the next look at the bounds: samples x 6 x 8 numbers of stress
+  // multiplied together: samples x 6 x 8 numbers of stress
+  constexpr std::size_t at_once = 8;
   Ranking               ranking(search);
   WorstPoints           result;
-  std::vector<int>      left;
-  const auto            evaluate = [&]
+  while (!queue.empty() && queue.top().bound > ranking.enough())
   {
-    // with a distance a worse point may displace others, so that points below them count again
-    ranking.add(damage_of_points(stresses, &bounds, left, search.distance > 0. ? -1. : ranking.enough()));
-    result.looked_at += static_cast<int>(left.size());
-    left.clear();
-  };
-  while (!queue.empty() || !left.empty())
-  {
-    if (queue.empty() || left.size() == at_once || queue.top().bound <= ranking.enough())
+    const double        next = queue.top().bound;
+    const bool          last = queue.top().last;
+    std::vector<int>    some;
+    std::vector<double> before;
+    for (; !queue.empty() && some.size() < at_once && queue.top().bound > ranking.enough() && queue.top().last == last;
+         queue.pop())
+      if (!ranking.near(queue.top().point, next))
+      {
+        some.push_back(queue.top().point);
+        before.push_back(queue.top().bound);
+      }
+    if (some.empty())
+      continue;
+    if (!last)
     {
-      if (left.empty())
-        break;
-      evaluate();
+      const VectorXd closer = bounds.of_samples(some);
+      for (std::size_t i = 0; i < some.size(); ++i)
+        queue.push({std::min(before[i], closer[Index(i)]), some[i], true});
       continue;
     }
-    const BoundOfPoint next = queue.top();
-    queue.pop();
-    if (ranking.near(next.point, next.bound) && left.empty())
-      continue;
-    if (next.last)
-      left.push_back(next.point);
-    else
-      queue.push({std::min(next.bound, bounds.of_samples(next.point)), next.point, true});
+    // with a distance a worse point may displace others, so that points below them count again
+    ranking.add(damage_of_points(stresses, &bounds, some, search.distance > 0. ? -1. : ranking.enough()));
+    result.looked_at += static_cast<int>(some.size());
   }
   result.worst = ranking.worst();
   return result;

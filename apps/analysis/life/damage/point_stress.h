@@ -1,7 +1,8 @@
 #pragma once
 
-#include "apps/analysis/life/damage_bounds.h"
-#include "apps/analysis/life/worst_points.h"
+#include "apps/analysis/life/damage/damage_bounds.h"
+#include "apps/analysis/life/damage/stress_measure.h"
+#include "coupling/frame/reduced_stress.h"
 
 #include <Eigen/Core>
 

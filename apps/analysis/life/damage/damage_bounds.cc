@@ -1,4 +1,4 @@
-#include "apps/analysis/life/damage_bounds.h"
+#include "apps/analysis/life/damage/damage_bounds.h"
 
 #include "coupling/integration/system/dense_solvers.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "apps/analysis/life/cycles.h"
-#include "apps/analysis/life/mean_stress.h"
-#include "apps/analysis/life/sn_curve.h"
+#include "apps/analysis/life/damage/cycles.h"
+#include "apps/analysis/life/damage/mean_stress.h"
+#include "apps/analysis/life/damage/sn_curve.h"
 
 #include <vector>
 
