@@ -165,7 +165,7 @@ MatrixXd stress_histories(const Matrix &M, const Matrix &B, const Matrix &C, con
 /// A bar of hexahedra loaded at its free end within 4 ms, with ten points an element and more from its ends.  The error
 /// budget tells the difference to twice the modes and eight more at least: as errors fall with the square of the number
 /// of modes, this is 1 - (6/14)^2, or 1/1.22, of them.
-TEST(ReducedStress, HistoriesAreThoseOfADirectIntegrationOfTheFullFrameWithinWhatTheBudgetTells)
+TEST(ReducedStress, HistoriesAreThoseOfADirectIntegrationOfTheFullFrameWithinTheErrorBudget)
 {
   auto specification               = test::free_steel();
   specification.supports           = {test::clamped("wall", {"x0"})};
