@@ -114,8 +114,7 @@ AnalysisEntry life_analysis()
 {
   return analysis_entry<Life, LifeResult>(
       "life", "compute the fatigue damage of the frame and the places where it cracks first",
-      {"gestell life apps/scenes/press_life.toml",
-       "gestell life apps/scenes/press_life.toml --set \"life.curve.class=90\""},
+      {"gestell life apps/scenes/press.toml --set life.curve.class=71"},
       {{"life.csv", "worst places with damage and life, with `[life]`", content_of<LifeResult, life_places_csv>},
        {"life_cycles.csv", "cycles at the worst place, by damage", content_of<LifeResult, life_cycles_csv>},
        {"life.vtp", "damage and life on the frame in ParaView, as logarithms", content_of<LifeResult, life_vtp>}},
