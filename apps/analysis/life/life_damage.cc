@@ -198,6 +198,8 @@ std::vector<PointDamage> worst_of(const LifeGroup &group, const LifeLoad &load, 
     rule.miner = Miner::elementary;
     found      = worst_points(*group.stress, load.states, load.sequence, rule, group.search);
   }
+  const auto idle = [](const PointDamage &one) { return !(one.damage > 0.); };
+  found.worst.erase(std::remove_if(found.worst.begin(), found.worst.end(), idle), found.worst.end());
   result.n_points += int(std::count(group.search.counts.begin(), group.search.counts.end(), 1));
   result.looked_at += found.looked_at;
   return found.worst;
@@ -352,7 +354,8 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
   std::vector<std::string> warnings;
   const LifePlace         *worst = found.worst();
   if (!worst)
-    return {"life: there is no point away from rigid surfaces; coarse frames have none, make the mesh finer"};
+    return {"life: no cycle was counted: the stress is constant, or all points are beside rigid surfaces, as those of "
+            "coarse frames"};
   const auto place = [](const LifePlace &at)
   { return "(" + short_text(at.at[0]) + " " + short_text(at.at[1]) + " " + short_text(at.at[2]) + ")"; };
   if (worst->disagreement > resolved_disagreement)

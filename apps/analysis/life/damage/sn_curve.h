@@ -51,8 +51,8 @@ enum class StressKind
 SnCurve eurocode_curve(double category, StressKind kind, double gamma);
 
 /**
- * EN 13001-3-1:2012+A2:2018, 6.2: notch class = range [Pa] of 2e6 cycles, one line without cut-off, m = 3 for direct
- * stress, m = 5 for shear (and plain material, see `slope`).
+ * EN 13001-3-1, annex D: notch class = range [Pa] of 2e6 cycles, 355 to 28 MPa; one line, no cut-off, m = 3 for direct
+ * stress, m = 5 for shear.  Plain material, m = 5 there, is a table of one's own.
  * @param gamma  fatigue strength specific resistance factor gamma_mf, > 0
  * @throws std::invalid_argument: no such class (with the nearest one), gamma
  */

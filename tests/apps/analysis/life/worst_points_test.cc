@@ -195,7 +195,7 @@ struct Plate
   LoadSequence load() const
   {
     const auto n = std::int64_t(states.cols());
-    return {{{0, n / 2, 20.}, {n / 2, n, 3.}}, Residue::repeated};
+    return {{{0, n / 2, 20.}, {n / 2, n - 1, 3.}, {n - 1, n, 2.}}, Residue::repeated}; // the last one a static load
   }
 };
 
@@ -227,7 +227,7 @@ void expect_the_worst(const WorstPoints &found, const std::vector<PointDamage> &
   }
 }
 
-/// With the effort of tolerance: slopes 3 and 5 with a cut-off, one slope, a falling limit with mean stress, and a
+/// Slopes 3 and 5 with a cut-off, one slope, a falling limit with mean stress, and a
 /// curve that is not concave.
 std::vector<DamageRule> rules()
 {
