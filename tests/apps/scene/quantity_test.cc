@@ -169,7 +169,8 @@ TEST(Quantity, NonsenseIsRefusedWithTheReason)
 
 TEST(Quantity, AMistakeIsShownWithTheCharacterItIsAt)
 {
-  expect_words(quantity_complaint("2*crank_radius + 3 kg"), "adds kg to m; both must have the same dimension (character 16)");
+  expect_words(quantity_complaint("2*crank_radius + 3 kg"),
+               "adds kg to m; both must have the same dimension (character 16)");
   expect_words(quantity_complaint("3 µm + parsec"), "(character 8)"); // of UTF-8, not bytes
   expect_words(quantity_complaint("(2"), "(character 3)");
   expect_words(quantity_complaint("sqrt(4) mm"), "lacks an operator (* / + -) before 'mm' (character 9)");
