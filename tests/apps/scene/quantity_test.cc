@@ -194,9 +194,9 @@ TEST(Quantity, AWrongDimensionSaysWhatIsNeededAndWhatCame)
 
 TEST(Quantity, TurnsAndRadiansPerSecondAreDistinguished)
 {
-  expect_words(quantity_complaint("5 Hz", kind::angular_speed), "turns");
+  expect_words(quantity_complaint("5 Hz", kind::angular_speed), "revolutions");
   expect_words(quantity_complaint("30 rad/s", kind::frequency), "radians");
-  expect_words(quantity_complaint("3 N m/Hz", kind::torsional_damping), "turns");
+  expect_words(quantity_complaint("3 N m/Hz", kind::torsional_damping), "revolutions");
   EXPECT_EQ(quantity_complaint("30 rad/s", kind::angular_speed), "");
   EXPECT_EQ(quantity_complaint("2*pi * 1 rad * 50 Hz", kind::angular_speed), "");
   EXPECT_EQ(quantity_complaint("50 Hz", kind::frequency), "");
