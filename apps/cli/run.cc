@@ -46,7 +46,8 @@ void print_answer(const coupling::RunResult &run)
               << noise.without(signal.unit, signal.max) << std::setw(14) << signal.t_max << "  " << signal.unit << '\n';
   std::cout << run.method << ": " << run.events.size() << " events, " << run.work.steps << " steps, "
             << std::setprecision(3) << double(run.work.newton) / std::max(1L, run.work.steps)
-            << " Newton iterations per step, " << run.work.factorisations << " factorisations, " << run.wall_s << " s\n";
+            << " Newton iterations per step, " << run.work.factorisations << " factorisations, " << run.wall_s
+            << " s\n";
   const coupling::EnergySummary &energy = run.energy;
   if (energy.exchanged > 0. || energy.residual > 0.) // otherwise the balance was not computed
     std::cout << "energy residual " << energy.residual << " J of " << energy.exchanged << " J exchanged, "

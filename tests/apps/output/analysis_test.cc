@@ -94,8 +94,8 @@ TEST(Section, HasItsSentencesAndTablesOnThePageAndInATerminal)
   Pictures          pictures;
   const std::string html = section_html(section, pictures);
   EXPECT_EQ(pictures, (Pictures{{"life", "<svg></svg>"}}));
-  for (const char *text : {"<section id=\"life\"><details open><summary><h2>Life</h2>", "Cycles &lt; 100 count.", "rod &lt;1&gt;", "12.5",
-                           "a note over all columns", "Rings: peaks.", ">77<", "<svg></svg>"})
+  for (const char *text : {"<section id=\"life\"><details open><summary><h2>Life</h2>", "Cycles &lt; 100 count.",
+                           "rod &lt;1&gt;", "12.5", "a note over all columns", "Rings: peaks.", ">77<", "<svg></svg>"})
     EXPECT_THAT(html, HasSubstr(text));
 
   Result result;

@@ -249,7 +249,7 @@ TEST(Places, WhatCannotActIsRefused)
   const std::string motor = "[element.e]\ntype = \"speed drive\"\nspeed = 1\nproportional_gain = 1\n";
   expect_complaint(discs + motor + "on = \"twist\"\nto = \"two\"\n", "element.e.to: has no effect");
   expect_complaint(discs + point + motor + "on = \"one\"\nto = \"bob\"\n", "'bob' is a point");
-  expect_complaint(point + "[element.e]\ntype = \"asynchronous motor\"\non = \"bob\"\n", "'bob' is no rotor");
+  expect_complaint(point + "[element.e]\ntype = \"asynchronous motor\"\non = \"bob\"\n", "'bob' is not a rotor");
   expect_complaint(plate + point +
                        "[measure.m]\ntype = \"along\"\nfrom = \"tip\"\ndirection = [0, 0, 1]\ncarried_by = \"bob\"\n",
                    "can rotate with `from` or `to` only");

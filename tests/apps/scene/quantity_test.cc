@@ -169,7 +169,8 @@ TEST(Quantity, NonsenseIsRefusedWithTheReason)
 
 TEST(Quantity, AMistakeIsShownWithTheCharacterItIsAt)
 {
-  expect_words(quantity_complaint("2*crank_radius + 3 kg"), "adds kg to m; both must have the same dimension (character 16)");
+  expect_words(quantity_complaint("2*crank_radius + 3 kg"),
+               "adds kg to m; both must have the same dimension (character 16)");
   expect_words(quantity_complaint("3 µm + parsec"), "(character 8)"); // of UTF-8, not bytes
   expect_words(quantity_complaint("(2"), "(character 3)");
   expect_words(quantity_complaint("sqrt(4) mm"), "lacks an operator (* / + -) before 'mm' (character 9)");
@@ -193,9 +194,9 @@ TEST(Quantity, AWrongDimensionSaysWhatIsNeededAndWhatCame)
 
 TEST(Quantity, TurnsAndRadiansPerSecondAreDistinguished)
 {
-  expect_words(quantity_complaint("5 Hz", kind::angular_speed), "turns");
+  expect_words(quantity_complaint("5 Hz", kind::angular_speed), "revolutions");
   expect_words(quantity_complaint("30 rad/s", kind::frequency), "radians");
-  expect_words(quantity_complaint("3 N m/Hz", kind::torsional_damping), "turns");
+  expect_words(quantity_complaint("3 N m/Hz", kind::torsional_damping), "revolutions");
   EXPECT_EQ(quantity_complaint("30 rad/s", kind::angular_speed), "");
   EXPECT_EQ(quantity_complaint("2*pi * 1 rad * 50 Hz", kind::angular_speed), "");
   EXPECT_EQ(quantity_complaint("50 Hz", kind::frequency), "");
