@@ -190,7 +190,7 @@ void read_life(const SceneTable &scene, Scene &result)
   if (!scene.has("life"))
     return;
   const SceneTable table = scene.table("life").declared(life_keys());
-  require_stresses(table, result);
+  request_stresses(table, result);
   LifeRequest life;
   table.fill(life);
   life.place       = table.place();
@@ -220,9 +220,8 @@ void read_life(const SceneTable &scene, Scene &result)
   constexpr double      counts = 20000.; // per run, by default: the interval of the finest pictures of its swings
   if (life.step == 0. && result.run.given)
     life.step = run.method.step > 0. && run.method.tolerance == 0. ? run.method.step : (run.end - run.begin) / counts;
-  run.states.step              = run.states.step > 0. ? std::min(run.states.step, life.step) : life.step;
-  result.frame.geometry.stress = true;
-  result.life                  = std::make_shared<const LifeRequest>(std::move(life));
+  run.states.step = run.states.step > 0. ? std::min(run.states.step, life.step) : life.step;
+  result.life     = std::make_shared<const LifeRequest>(std::move(life));
 }
 
 } // namespace gestell::apps

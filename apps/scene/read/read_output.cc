@@ -79,7 +79,7 @@ void read_stages(const SceneTable &output, Scene &scene)
     throw stages.error("modes", "needs a number from 1 to " + std::to_string(most_ringing_modes));
 }
 
-void require_stresses(const SceneTable &asking, const Scene &scene)
+void request_stresses(const SceneTable &asking, Scene &scene)
 {
   const std::string remedy = "; remove [" + asking.path() + "]";
   switch (scene.frame.source)
@@ -95,6 +95,9 @@ void require_stresses(const SceneTable &asking, const Scene &scene)
     if (!scene.reduction.reduces())
       throw asking.error("stresses need a reduced frame; remove reduction.method = \"none\"");
   }
+  scene.frame.geometry.stress = true;
+  for (coupling::FramePart &part : scene.frame.parts.parts)
+    part.geometry.stress = true;
 }
 
 namespace
@@ -170,12 +173,9 @@ void read_stress(const SceneTable &output, Scene &scene)
   if (!output.has("stress"))
     return;
   const SceneTable stress = output.table("stress").declared(stress_keys());
-  require_stresses(stress, scene);
-  scene.stress.given          = true;
-  scene.stress.place          = stress.place();
-  scene.frame.geometry.stress = true;
-  for (coupling::FramePart &part : scene.frame.parts.parts)
-    part.geometry.stress = true;
+  request_stresses(stress, scene);
+  scene.stress.given = true;
+  scene.stress.place = stress.place();
   read_instants(stress, scene);
   read_extremes(stress, "largest", scene);
   read_extremes(stress, "smallest", scene);

@@ -9,9 +9,10 @@ namespace gestell::apps
 /// Reads [output]: signals, and the times between rows and pictures.
 void read_output(const SceneTable &scene, Scene &result);
 
-/// @param asking  the table that needs stresses of the frame
+/// Requests stresses from the frame and its parts.
+/// @param asking  the table that needs them
 /// @throws std::invalid_argument for a frame that has none
-void require_stresses(const SceneTable &asking, const Scene &scene);
+void request_stresses(const SceneTable &asking, Scene &scene);
 
 /// Keys of [output]; of a signal with `from` in it; of [output.stress] and [output.stages].
 const std::vector<Key> &output_keys();
