@@ -28,7 +28,7 @@ template <class Visitor>
 void describe(Visitor &v, const LifeError &x)
 {
   v("mesh", x.mesh, "1", "stress higher by the disagreement of neighbouring elements");
-  v("modes", x.modes, "1", "without the highest quarter of the modes");
+  v("modes", x.modes, "1", "without the higher half of the modes");
   v("time", x.time, "1", "a third of what every second state changes");
   v("total", x.total(), "1", "their product");
 }
