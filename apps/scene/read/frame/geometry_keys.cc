@@ -22,11 +22,6 @@ Key surfaces_key(const std::string &meaning)
 
 } // namespace
 
-Key prestress_factor_key()
-{
-  return key::number("factor", kind::number, "factor of these loads").by_default(1.);
-}
-
 const std::vector<Key> &mesh_keys()
 {
   using Mesh = fem::MeshOptions;
@@ -89,7 +84,8 @@ const std::vector<Key> &prestress_keys()
           "static loads on surfaces, `[{ surface = \"table\", force = [0, 0, \"-500 kN\"] }]`; they keep their "
           "direction")
           .by_default("none"),
-      prestress_factor_key()};
+      key::truth("tie_rods", false, "forces of the tie rods, `prestress` of the joints, in a frame of parts"),
+      key::number("factor", kind::number, "factor of these loads").by_default(1.)};
   return keys;
 }
 

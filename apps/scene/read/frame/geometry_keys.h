@@ -10,7 +10,6 @@ namespace gestell::apps
 const std::vector<Key> &frame_keys();
 const std::vector<Key> &mesh_keys();
 const std::vector<Key> &prestress_keys();
-Key                     prestress_factor_key();
 const std::vector<Key> &surface_keys();
 const std::vector<Key> &support_keys();
 const std::vector<Key> &interface_keys();

@@ -55,8 +55,11 @@ FrameRequest read_frame(const SceneTable &scene)
                      "; remove it");
   if (cad)
   {
-    request.source   = FrameSource::geometry;
-    request.geometry = read_frame_geometry(frame->declared(frame_keys()), scene);
+    request.source         = FrameSource::geometry;
+    const SceneTable whole = frame->declared(frame_keys());
+    request.geometry       = read_frame_geometry(whole, scene);
+    if (const auto prestress = whole.optional_table("prestress"))
+      request.geometry.prestress = read_surface_loads(*prestress, scene, request.geometry);
     refuse_flexible(request.geometry);
   }
   else if (parts)

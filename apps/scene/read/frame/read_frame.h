@@ -15,8 +15,10 @@ FrameRequest read_frame(const SceneTable &scene);
 /// Reads [frame] of a frame made from CAD or a mesh.
 fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const SceneTable &scene);
 
-/// Reads what `prestress` of all frames contains.
+/// Reads what `prestress` of all frames contains, and that of a frame of one part.
 fem::Prestress read_prestress(const SceneTable &prestress, const SceneTable &scene);
+fem::Prestress read_surface_loads(const SceneTable &prestress, const SceneTable &scene,
+                                  const fem::FrameSpecification &frame);
 
 /// Reads [frame] of several parts and their joints.
 coupling::FrameOfParts read_frame_parts(const SceneTable &frame, const SceneTable &scene);

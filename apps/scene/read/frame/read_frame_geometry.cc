@@ -264,25 +264,6 @@ void check_overlaps(const SceneTable &frame, const fem::FrameSpecification &spec
                       ".interface.NAME] for the mechanism or a joint to act on");
 }
 
-/// Static loads before the vibration.
-fem::Prestress read_surface_loads(const SceneTable &table, const SceneTable &scene,
-                                  const fem::FrameSpecification &frame)
-{
-  fem::Prestress prestress = read_prestress(table, scene);
-  if (frame.parts != 1)
-    throw table.error("needs the whole frame at once; leave out 'parts'");
-  for (const SceneTable &own : table.table_array("loads"))
-  {
-    if (!own.has("force") && !own.has("pressure"))
-      throw own.error("needs a 'force' such as [0, 0, \"-500 kN\"], a 'pressure', or both");
-    prestress.loads.push_back(
-        {read_surface_names(own, frame), own.vector_or("force", {}), own.value_or("pressure", 0.), own.place()});
-  }
-  if (prestress.loads.empty() && prestress.acceleration == fem::Vector3{})
-    throw table.error("has no load; give it 'loads', or gravity = true and the scene a 'gravity'");
-  return prestress;
-}
-
 /// A motor or a counterweight, on an interface or on surfaces of its own.
 fem::AttachedMass read_mass(const SceneTable &any, const fem::FrameSpecification &frame)
 {
@@ -348,6 +329,26 @@ fem::Prestress read_prestress(const SceneTable &table, const SceneTable &scene)
   return prestress;
 }
 
+fem::Prestress read_surface_loads(const SceneTable &table, const SceneTable &scene,
+                                  const fem::FrameSpecification &frame)
+{
+  if (table.truth("tie_rods"))
+    throw table.error("tie_rods", "needs a frame of parts that are joined by tie rods; remove it");
+  fem::Prestress prestress = read_prestress(table, scene);
+  if (frame.parts != 1)
+    throw table.error("needs the whole frame at once; leave out 'parts'");
+  for (const SceneTable &own : table.table_array("loads"))
+  {
+    if (!own.has("force") && !own.has("pressure"))
+      throw own.error("needs a 'force' such as [0, 0, \"-500 kN\"], a 'pressure', or both");
+    prestress.loads.push_back(
+        {read_surface_names(own, frame), own.vector_or("force", {}), own.value_or("pressure", 0.), own.place()});
+  }
+  if (prestress.loads.empty() && prestress.acceleration == fem::Vector3{})
+    throw table.error("has no load; give it 'loads', or gravity = true and the scene a 'gravity'");
+  return prestress;
+}
+
 fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const SceneTable &scene)
 {
   fem::FrameSpecification specification;
@@ -384,8 +385,6 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
     specification.masses.push_back(read_mass(table, specification));
   for (const auto &table : frame.tables("cut"))
     specification.cuts.push_back(read_cut(table));
-  if (const auto table = frame.optional_table("prestress"))
-    specification.prestress = read_surface_loads(*table, scene, specification);
   for (const auto &table : frame.tables("stress_point"))
     specification.stress_points.push_back(read_stress_point(table));
   check_overlaps(frame, specification);
