@@ -81,7 +81,8 @@ public:
             .one_of({"equilibrium", "undeformed"})
             .with("--along"),
         CommandOption{"--hold", &own_.hold, "coordinates that are fixed, such as a locked drive"}.with("--along"),
-        CommandOption{"--speed", &own_.speed, "speed of the orders, such as \"30 1/min\" (default: initial speed)"}
+        CommandOption{"--speed", &own_.speed,
+                      "speed that defines the orders, such as \"30 1/min\" (default: initial speed)"}
             .with("--along"),
         CommandOption{"--orders", &own_.orders, "highest order (default 10)"}.above_zero().at_most(1e4).with("--along"),
         CommandOption{"--band", &own_.band, "relative distance within which an order is listed (default \"5 %\")"}.with(

@@ -67,12 +67,13 @@ const std::vector<Key> &mesh_keys()
           .into(&Mesh::plates, {fem::Plates::tetrahedra, fem::Plates::swept}),
       key::plain("layers", Key::Form::whole, "smallest number of elements through a swept plate")
           .by_default(&Mesh::layers),
-      key::truth("curved", false,
-                 "curved sides of tetrahedra, which follow bores, fillets and other curved faces: the shape error "
-                 "falls with the fourth power of the element size, that of straight sides with the second. Sides that "
-                 "would fold an element are straightened, with a note. Quadratic tetrahedral meshes from files keep "
-                 "their sides. Hexahedra have straight edges: `true` is an error, and a note gives the distance of the "
-                 "mid-side nodes of quadratic ones from these edges")
+      key::truth(
+          "curved", false,
+          "curved sides of tetrahedra, which follow bores, fillets and other curved faces: the shape error "
+          "falls with the fourth power of the element size, that of straight sides with the second. Sides that "
+          "would fold an element are straightened, and a note is printed. Quadratic tetrahedral meshes from files keep "
+          "their sides. Hexahedra have straight edges: `true` is an error, and a note gives the distance of the "
+          "mid-side nodes of quadratic ones from these edges")
           .into(&Mesh::curved)};
   return keys;
 }
@@ -80,7 +81,7 @@ const std::vector<Key> &mesh_keys()
 const std::vector<Key> &prestress_keys()
 {
   static const std::vector<Key> keys = {
-      key::truth("gravity", false, "weight of the frame and its masses, by `gravity` of the scene"),
+      key::truth("gravity", false, "include the weight of the frame and its masses (`gravity` of the scene)"),
       key::composed(
           "loads", Key::Form::tables, kind::number,
           {one_surface_key(), surfaces_key("loaded surfaces"),
@@ -122,7 +123,7 @@ const std::vector<Key> &frame_keys()
       material_key().by_default("`\"steel\"`"),
       key::plain(
           "materials", Key::Form::map,
-          "materials of single solids by name or pattern, of which the last match counts: `{ \"crown\" = \"cast "
+          "materials of single solids by name or pattern; the last match applies: `{ \"crown\" = \"cast "
           "iron\", \"column *\" = \"steel\" }`; all other solids have `material`. `gestell mesh` lists the names")
           .by_default("none"),
       key::table("damping", damping_keys(),
@@ -229,7 +230,7 @@ const std::vector<Key> &interface_keys()
       key::vector("position", kind::length, "position of the node; required for `\"point\"` and `\"node\"`")
           .by_default("centroid")
           .into(&fem::InterfaceSpecification::position),
-      key::number("radius", kind::length, "radius around a `\"point\"` within which triangles count")
+      key::number("radius", kind::length, "radius around a `\"point\"` within which triangles are averaged")
           .from_zero()
           .by_default("triangles at the nearest vertex"),
       key::plain("degree", Key::Form::whole,

@@ -41,8 +41,9 @@ const std::vector<Key> &parts_frame_keys()
           .by_default("that of the parts"),
       key::table(
           "prestress",
-          {key::truth("gravity", false, "weight of the frame and its masses, by `gravity` of the scene"),
-           key::truth("tie_rods", false, "forces of the tie rods, `prestress` of the joints"), prestress_factor_key()},
+          {key::truth("gravity", false, "include the weight of the frame and its masses (`gravity` of the scene)"),
+           key::truth("tie_rods", false, "include the forces of the tie rods (`prestress` of the joints)"),
+           prestress_factor_key()},
           "static loads whose stresses stiffen or soften the parts and the tie rods, as for a frame of one part: "
           "`{ tie_rods = true }`")
           .by_default("none"),
@@ -56,7 +57,7 @@ const std::vector<Key> &frame_part_keys()
 {
   static const std::vector<Key> keys = joined(
       {without_those_of_the_whole(frame_keys()),
-       {key::named("same_as", "an equal part in another position, given only with `placement`. Equal parts are reduced "
+       {key::named("same_as", "part of which this one is a copy; only `placement` may differ. Equal parts are reduced "
                               "once, even without this key")
             .by_default("`cad`"),
         key::table("placement",
@@ -134,7 +135,8 @@ void refuse_beside_same_as(const SceneTable &part)
 {
   for (const std::string &key : part.keys())
     if (key != "same_as" && key != "placement")
-      throw part.error(key, "is that of '" + part.text("same_as") + "'; with 'same_as' only 'placement' is allowed");
+      throw part.error(key, "is taken from the part '" + part.text("same_as") +
+                                "'; with 'same_as' only 'placement' is allowed");
 }
 
 /// One that is the same as another has no geometry yet.
