@@ -70,7 +70,7 @@ public:
         {"--along", &own_.along, "follow the modes along a coordinate: a body, a measure or a driven joint"},
         CommandOption{"--from", &own_.from, "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)"}
             .with("--along"),
-        CommandOption{"--to", &own_.to, "last position (default one revolution further)"}.with("--along"),
+        CommandOption{"--to", &own_.to, "last position (default: one revolution after the first)"}.with("--along"),
         CommandOption{"--positions", &own_.positions,
                       "number of positions, including both ends (default 73: every 5 deg of a revolution)"}
             .at_most(1e5)

@@ -176,7 +176,7 @@ WeldRequest read_weld(const SceneTable &table, const fem::FrameSpecification &fr
   if (weld.thickness > 0. && weld.surfaces.size() != 2)
     throw table.error("thickness", "belongs to a line; name the two surfaces that meet there");
   if (table.has("distances") && weld.thickness == 0.)
-    throw table.error("distances", "are in thicknesses; give 'thickness', too");
+    throw table.error("distances", "are multiples of the thickness; give 'thickness'");
   if (weld.distances.size() < 2 || weld.distances.size() > 3 || !(weld.distances.front() > 0.) ||
       !std::is_sorted(weld.distances.begin(), weld.distances.end(), std::less_equal<>()))
     throw table.error("distances", "needs two or three numbers above 0 that rise, such as [0.4, 1] or [0.4, 0.9, 1.4]");

@@ -205,10 +205,9 @@ const std::vector<Key> &output_keys()
           .above_zero()
           .by_default("the fixed step; with a tolerance 1/2000 of the run")
           .into(&coupling::RunOptions::output_step),
-      key::number(
-          "from", kind::time,
-          "start of the window in which extremes, key numbers and spectra are taken; or `\"last period\"`, [see "
-          "there](#a-window-for-results)")
+      key::number("from", kind::time,
+                  "start of the window for extremes, key numbers and spectra; or `\"last period\"`, [see "
+                  "there](#a-window-for-results)")
           .also({Key::Form::text})
           .by_default("the start of the run"),
       key::number("picture_step", kind::time, "interval between pictures of the motion; 0: none")

@@ -214,9 +214,10 @@ std::string robust_section(const StudyFindings &findings)
             robust_words(result) + robust_table(result);
   if (html.empty())
     return "";
-  return section("robust", "Effect of scatter of the variables",
-                 html + "<p class=\"soft\">±: standard error of the sample. Quantiles are given with their 95 % "
-                        "confidence interval.</p>\n");
+  return section(
+      "robust", "Effect of scatter of the variables",
+      html + "<p class=\"soft\">±: standard error due to the number of draws. Quantiles are given with their 95 % "
+             "confidence interval.</p>\n");
 }
 
 } // namespace gestell::apps

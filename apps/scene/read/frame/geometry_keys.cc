@@ -110,7 +110,7 @@ const std::vector<Key> &frame_keys()
           .also({Key::Form::text})
           .by_default("none"),
       key::map("dimensions", kind::length, {},
-               "new values of lengths and numbers that a script (`.geo`) assigns, `{ web_plate = \"70 mm\" }` for its "
+               "new values of variables of a script (`.geo`): `{ web_plate = \"70 mm\" }` replaces the value of its "
                "first line `web_plate = ...;`. A [study](../study.md) may vary them")
           .by_default("those of the script"),
       key::map("mesh", kind::length, mesh_keys(),
@@ -257,7 +257,8 @@ const std::vector<Key> &stress_point_keys()
   static const std::vector<Key> keys = {
       key::vector("at", kind::length,
                   "point on the surface; the nearest one of the mesh is used and its distance printed"),
-      key::direction("along", "direction n of the normal stress `normal`, n . sigma n, such as across a weld")
+      key::direction("along",
+                     "direction n of the signal `normal`, the normal stress n . sigma n, such as across a weld")
           .by_default("no `normal`")};
   return keys;
 }

@@ -85,7 +85,7 @@ const std::vector<Key> &file_unit_keys()
       key::number("length", kind::length, "`\"1 mm\"`").above_zero().by_default(1.),
       key::number("mass", kind::mass, "`\"1 t\"`").above_zero().by_default(1.),
       key::number("time", kind::time, "`\"1 ms\"`").above_zero().by_default(1.),
-      key::number("force", kind::force, "unit of force, if it does not follow from the others: N with kg and mm")
+      key::number("force", kind::force, "unit of force, if it is not consistent with the others: N with kg and mm")
           .above_zero()
           .by_default("mass length / time^2")};
   return keys;

@@ -49,7 +49,7 @@ const std::vector<Key> &parts_frame_keys()
           .by_default("none"),
       key::choice("modes", {"by tolerance", "all"}, true,
                   "modes of the joined parts with the interfaces of the mechanism fixed: as many as `[reduction]` "
-                  "requires, or `\"all\"` modes of the reduced parts, which changes only the coordinates")};
+                  "requires, or `\"all\"` modes of the reduced parts (no truncation)")};
   return keys;
 }
 
