@@ -129,7 +129,7 @@ int run_guarded(int argc, char **argv, JsonAnswer &answer)
   {
     return fail(exit_failed,
                 "the computation failed: out of memory; use a coarser mesh (mesh.size), fewer modes "
-                "(reduction.modes) or a larger step of what is kept (output.step, output.picture_step, "
+                "(reduction.modes) or a longer interval of stored results (output.step, output.picture_step, "
                 "output.stress.step), or a machine with more memory",
                 answer);
   }

@@ -45,7 +45,7 @@ const std::vector<ResultFile> own_files = {
     {"view.py",
      "macro that opens motion.pvd, forces.pvd and names.pvd in ParaView at the main peak, deformed and coloured"},
     {"stress.pvd", "stresses at the skin of the frame in ParaView, with `[output.stress]`", nullptr, "stress", ".vtp"},
-    {"report.html", "report: one page for browser or print, without a network; its charts as files", nullptr, "charts",
+    {"report.html", "report as one page for browser or print, usable offline; its charts as files", nullptr, "charts",
      ".svg"},
     {"summary.json", "results for other programs: peaks, events, frequencies, work, energy, warnings"}};
 

@@ -60,7 +60,7 @@ void lay_methods_over(const Scene &scene, PreparedMachine &prepared, double step
   if (!(method.step > 0.))
     throw std::invalid_argument("stability: the scene has no fixed step; give one, such as --step 1e-4");
   if (method.tolerance > 0.)
-    study.notes.push_back("The step of the scene is controlled; its modes are shown for a step of " +
+    study.notes.push_back("The scene has step control; its modes are shown for a fixed step of " +
                           short_text(method.step) + " s.");
   method.tolerance = 0.;
   if (prepared.companion && !in_modes)

@@ -156,14 +156,15 @@ int study_scene(const CommonOptions &options, const StudyCommand &requested)
 Command study_command()
 {
   const auto requested = std::make_shared<StudyCommand>();
-  return {"study",
-          "sweep, design of experiments or optimisation over a scene",
-          {"gestell study apps/studies/press_24.toml --jobs 2"},
-          CommandInput::study,
-          {{"--resume", &requested->resume, "continue the study in the folder"},
-           {"--share", &requested->share,
-            "run only this share of the runs, such as 3/10; a final call without the option merges the shares"}},
-          [requested](const CommonOptions &options) { return study_scene(options, *requested); }};
+  return {
+      "study",
+      "sweep, design of experiments or optimisation over a scene",
+      {"gestell study apps/studies/press_24.toml --jobs 2"},
+      CommandInput::study,
+      {{"--resume", &requested->resume, "continue the study in the folder"},
+       {"--share", &requested->share,
+        "run only one share of the runs: 3/10 is the third of ten; a final call without the option merges the shares"}},
+      [requested](const CommonOptions &options) { return study_scene(options, *requested); }};
 }
 
 } // namespace gestell::apps

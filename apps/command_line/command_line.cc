@@ -93,7 +93,7 @@ void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
       ->required(input != CommandInput::scene_or_none);
   command
       .add_option("--jobs", options.jobs,
-                  study ? "number of processes that make runs (default 1)"
+                  study ? "number of processes for the runs (default 1)"
                         : "threads of linear algebra for the frame, or number of parts reduced at a time (default 1)")
       ->check(above_zero());
   command.add_flag("--quiet", options.quiet, "no progress on standard error");

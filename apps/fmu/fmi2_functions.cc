@@ -70,7 +70,7 @@ std::unique_ptr<FmuModel> model_at(const char *guid, const char *resources)
   auto model = std::make_unique<FmuModel>(folder);
   if (!guid || model->resources().guid != guid)
     throw std::invalid_argument("the model description has the guid '" + std::string(guid ? guid : "") +
-                                "', the resources '" + model->resources().guid + "'; they are of different FMUs");
+                                "', the resources '" + model->resources().guid + "'; they belong to different FMUs");
   return model;
 }
 

@@ -91,9 +91,9 @@ const std::vector<Key> &reduction_keys()
           .by_default(ReductionRequest().options.tolerance),
       key::plain("modes", Key::Form::whole,
                  "fixed number of modes, instead of `tolerance`; with both and no `frequency`, `tolerance` determines "
-                 "the valid frequency range. Default for `\"free-interface\"`: all up to 1.5 times `frequency`, or up "
-                 "to the twelfth elastic mode; for `\"modal\"`: all up to four times the highest load frequency, and "
-                 "as many as `tolerance` requires. A note gives the error up to `frequency`, or states that the "
+                 "the valid frequency range. Default for `\"free-interface\"`: all modes up to 1.5 times `frequency`, "
+                 "or twelve elastic modes; for `\"modal\"`: all modes up to four times the highest load frequency, and "
+                 "more if `tolerance` requires them. A note gives the error up to `frequency`, or states that the "
                  "retained modes end below it")
           .by_default("by `tolerance`"),
       key::number("frequency", kind::frequency,

@@ -164,7 +164,7 @@ double asked_period(const PeriodicRequest &request)
   const double period = option_value("--period", request.period, kind::time);
   if (period > 0.)
     return period;
-  throw std::invalid_argument("--period " + request.period + ": a period is a time above zero, such as \"0.2 s\"");
+  throw std::invalid_argument("--period " + request.period + ": the period must be a positive time, such as \"0.2 s\"");
 }
 
 coupling::FreeOscillation own_oscillation(const Scene &scene, coupling::Machine &machine,

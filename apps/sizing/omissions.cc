@@ -155,7 +155,7 @@ void Questions::untouched_branches()
     const bool branches = element.element && element.element->branches();
     if (branches && !touched && model_.scene.run.options.events)
       found_.left_out.push_back("play, stops or sticking of \"" + element.name +
-                                "\": no event in the run, so it stays in one branch of its law");
+                                "\": no event in the run, so only one branch of its law is used");
   }
 }
 

@@ -268,7 +268,8 @@ bool Search::is_known()
   for (const BudgetEntry &entry : judged_.back().rung.entries)
     for (const BudgetPart *part : {&entry.mesh, &entry.reduction, &entry.time})
       if (!part->error)
-        result_.stopped = "the error is unknown in all models; the last, " + entry.output + ": " + part->reason;
+        result_.stopped =
+            "the errors of all models are unknown; in the last model, " + entry.output + ": " + part->reason;
   return false;
 }
 

@@ -157,7 +157,7 @@ void read_checks(const SceneTable &table, const SceneNode &node, ReferenceCase &
           "order", "needs 'refine' in its case, such as { key = \"run.step\", values = [\"2 ms\", \"1 ms\"] }");
   }
   if (one.checks.empty())
-    throw table.error("needs [[" + table.path() + ".check]]: what must come out");
+    throw table.error("needs [[" + table.path() + ".check]]: the expected result");
 }
 
 ReferenceCase read_case(const SceneTable &table, const SceneNode &node)

@@ -242,7 +242,7 @@ public:
     if (depth > deepest_file || ++n_files_ > most_files)
       throw std::invalid_argument(
           name + ": is one of more than " + std::to_string(most_files) + " files, or " + std::to_string(deepest_file) +
-          " levels deep, that include each other; check whether one includes itself, or write one file");
+          " levels of nested includes; check whether a file includes itself, or write one file");
     const auto refused = [&](const std::string &what)
     { return std::invalid_argument(name + ":" + std::to_string(lines.number()) + ": " + what); };
     std::string keyword_before;

@@ -29,7 +29,7 @@ std::string contents(const std::string &name)
   file.seekg(0);
   file.read(text.data(), std::streamsize(text.size()));
   if (std::size_t(file.gcount()) != text.size())
-    throw std::invalid_argument(name + ": cannot be read to its end; check that it is a file");
+    throw std::invalid_argument(name + ": cannot be read completely; check that it is a regular file");
   return text;
 }
 

@@ -18,7 +18,7 @@ void refuse_singular(int coordinate)
 {
   throw std::invalid_argument(
       "DenseBase: the matrix of the time step is singular at coordinate " + std::to_string(coordinate) +
-      ": it has neither mass nor damping nor stiffness of its own; give it one of them or remove it");
+      ", which has no mass, damping or stiffness of its own; add one of them, or remove the coordinate");
 }
 
 MatrixXd symmetric_inverse(const MatrixXd &A, const std::vector<int> &names)

@@ -344,7 +344,7 @@ std::vector<PeriodicSolution> Minimising::solve(const PeriodicProblem &problem, 
     MotionSearch(problem, periods, box, options, found).from_all_starts();
   if (found.empty())
     throw NoPeriodicMotion("no periodic solution was found from " + std::to_string(highest * starts_of(options)) +
-                           " initial states in the box about the given one; increase --starts, or give an initial "
+                           " initial states around the given one; increase --starts, or give an initial "
                            "state closer to a solution");
   for (PeriodicSolution &solution : found)
     solution.share /= highest * free_starts(options);

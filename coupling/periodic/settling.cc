@@ -217,7 +217,7 @@ PeriodicSolution reported(const PeriodicProblem &problem, const Settled &settled
        << " s: it deviates from the initial state by " << settled.error << " of its speed";
   if (settled.contraction > 0.9 && settled.contraction < 1.)
     text << " and converges by " << 100. * (1. - settled.contraction)
-         << " % a period; let it settle longer, or use --method shooting";
+         << " % per period; integrate more periods, or use --method shooting";
   else
     text << " and does not converge: it may repeat after several periods (--ratio 2, 3 ...), or not at all";
   throw NoPeriodicMotion(text.str());

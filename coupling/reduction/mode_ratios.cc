@@ -114,11 +114,11 @@ int mode_of(const fem::NamedRatio &measured, const ModesAtPoints &frame, std::ve
   for (const Candidate &own : near)
     others += (others.empty() ? "" : "; ") + words(own);
   if (near.empty())
-    refuse(measured, words(measured) + " matches none of the frame's: no elastic mode is near it; correct the frame, "
-                                       "or leave the measured mode out");
+    refuse(measured, words(measured) + " matches no mode of the frame: no elastic mode is near it; correct the frame, "
+                                       "or remove the measured mode");
   if (shapes && !(best->mac >= least_mac))
-    refuse(measured, words(measured) + " matches none of the frame's: a MAC of " + rounded(least_mac, 2) +
-                         " is needed, but there are " + others + "; correct the frame, or give the number of the mode");
+    refuse(measured, words(measured) + " matches no mode of the frame: a MAC of " + rounded(least_mac, 2) +
+                         " is needed; candidates: " + others + "; correct the frame, or give the number of the mode");
   statements.push_back("damping: " + words(measured) + " is " + words(*best) + " of the frame, ratio " +
                        percent(measured.ratio));
   return best->mode;
@@ -142,7 +142,7 @@ fem::ModalRatios matched(fem::ModalRatios ratios, const ModesAtPoints &modes, st
                       " Hz; `gestell modes` prints them");
     if (one.mode >= elastic)
       refuse(one, "is of mode " + std::to_string(one.mode + 1) + ", but the model of the frame has " +
-                      std::to_string(elastic) + " elastic modes; give a lower number, or reduction.modes more");
+                      std::to_string(elastic) + " elastic modes; give a lower number, or increase reduction.modes");
     for (std::size_t other = 0; other < i && one.mode >= 0; ++other)
       if (ratios.named[other].mode == one.mode)
         refuse(one, "mode " + std::to_string(one.mode + 1) + " has two ratios, " + percent(ratios.named[other].ratio) +

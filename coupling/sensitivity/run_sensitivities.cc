@@ -397,11 +397,11 @@ std::string coarse_motion(const VariationalAccuracy &accuracy, const Sensitivity
   const auto  &method = problem.options.method;
   return "derivatives by " + problem.twins[std::size_t(worst)].key +
          (n > 1 ? " and " + std::to_string(n - 1) + (n > 2 ? " other parameters" : " other parameter") : "") +
-         " after t = " + short_text(accuracy.after) + " s may be off by about " + short_text(100. * off, 2) + " %: " +
-         (controlled(method)
-              ? "the points of the run are too far apart for the motion there; use a smaller run.tolerance"
-              : "steps of " + short_text(method.step) +
-                    " s are too long for the motion there; use run.tolerance or a smaller run.step");
+         " after t = " + short_text(accuracy.after) + " s may have errors of about " + short_text(100. * off, 2) +
+         " %: " +
+         (controlled(method) ? "the steps of the run are too large for the motion there; use a smaller run.tolerance"
+                             : "steps of " + short_text(method.step) +
+                                   " s are too long for the motion there; use run.tolerance or a smaller run.step");
 }
 
 RunSensitivities Passage::result()

@@ -83,7 +83,7 @@ void require_alike(const FrameOfParts &frame, const FrameJoint &joint)
   if (first.degree != second.degree || is_flexible(first) != is_flexible(second))
     refuse(joint.place, "'" + joint.between[0].name() + "' is " + coupling_text(first) + ", '" +
                             joint.between[1].name() + "' " + coupling_text(second) +
-                            "; give both coupling = \"flexible\" of one 'degree'");
+                            "; give both coupling = \"flexible\" with the same 'degree'");
 }
 
 /// Refuses faces with fields that no joint uses: their coordinates would have no meaning.

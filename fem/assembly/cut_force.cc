@@ -57,7 +57,8 @@ Eigen::Matrix3d axes_of(const CutSpecification &cut, const Vector3d &normal)
   const Vector3d   e     = first - first.dot(normal) * normal;
   constexpr double along = 1e-3; // below it the direction of e is the error of a normal given with few digits
   if (!(e.norm() > along))
-    throw std::invalid_argument(head(cut) + ": the first direction is along the normal; give one in the plane.");
+    throw std::invalid_argument(head(cut) +
+                                ": the first direction is parallel to the normal; give a direction in the plane.");
   Eigen::Matrix3d axes;
   axes << normal, e.normalized(), normal.cross(e.normalized());
   return axes;

@@ -161,7 +161,7 @@ std::shared_ptr<CadShape> read_brep(const CadSource &source)
     throw std::invalid_argument(
         source.place + ": " + source.path + " is damaged" +
         (place.empty() ? ": it ends before its shapes are complete: a count is too large or an entry is missing"
-                       : place + ": a number is expected there") +
+                       : place + ": a number is expected at this point") +
         "; copy or export it again.");
   }
   return result;

@@ -87,7 +87,7 @@ void check_shells(CadModel &model, const CadSource &source)
       throw std::invalid_argument(head + " contains " + std::to_string(described) + " solids, but only " +
                                   std::to_string(model.solids.size()) + " are closed; there are " + left +
                                   open_edges_of_faces(model) + ": " + way_to_close(source) + ".");
-  model.notes.push_back(left + open_edges_of_faces(model) + ": they are ignored, because a shell has no mass here");
+  model.notes.push_back(left + open_edges_of_faces(model) + ": they are ignored, because only solids have mass");
 }
 
 } // namespace gestell::fem

@@ -242,10 +242,10 @@ std::vector<const Face *> pieces_at(const std::vector<const Face *> &faces, cons
 {
   const auto of = [](const std::vector<const Face *> &faces)
   { return std::to_string(n_pieces(faces)) + (n_pieces(faces) == 1 ? " piece" : " pieces"); };
-  throw std::invalid_argument(selector.place + ": faces = " + std::to_string(selector.faces) + " may mean the " +
-                              std::to_string(here.size()) + " faces at 'through', which make " + of(here) + ", or " +
-                              of(all) + " of " + std::to_string(all.size()) +
-                              " faces; write faces = " + std::to_string(n_pieces(here)) +
+  throw std::invalid_argument(selector.place + ": faces = " + std::to_string(selector.faces) +
+                              " is ambiguous: it may be the " + std::to_string(here.size()) +
+                              " faces at 'through', which form " + of(here) + ", or " + of(all) + " of " +
+                              std::to_string(all.size()) + " faces; write faces = " + std::to_string(n_pieces(here)) +
                               " for the former, faces = " + std::to_string(all.size()) + " for the latter.");
 }
 

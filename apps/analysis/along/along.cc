@@ -70,7 +70,7 @@ public:
         {"--along", &own_.along, "follow the modes along a coordinate: a body, a measure or a driven joint"},
         CommandOption{"--from", &own_.from, "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)"}
             .with("--along"),
-        CommandOption{"--to", &own_.to, "last position (default one revolution further)"}.with("--along"),
+        CommandOption{"--to", &own_.to, "last position (default: one revolution after the first)"}.with("--along"),
         CommandOption{"--positions", &own_.positions,
                       "number of positions, including both ends (default 73: every 5 deg of a revolution)"}
             .at_most(1e5)
@@ -81,7 +81,8 @@ public:
             .one_of({"equilibrium", "undeformed"})
             .with("--along"),
         CommandOption{"--hold", &own_.hold, "coordinates that are fixed, such as a locked drive"}.with("--along"),
-        CommandOption{"--speed", &own_.speed, "speed of the orders, such as \"30 1/min\" (default: initial speed)"}
+        CommandOption{"--speed", &own_.speed,
+                      "speed that defines the orders, such as \"30 1/min\" (default: initial speed)"}
             .with("--along"),
         CommandOption{"--orders", &own_.orders, "highest order (default 10)"}.above_zero().at_most(1e4).with("--along"),
         CommandOption{"--band", &own_.band, "relative distance within which an order is listed (default \"5 %\")"}.with(

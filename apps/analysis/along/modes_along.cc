@@ -122,8 +122,9 @@ std::vector<std::string> along_warnings(const AlongResult &along)
     warnings.insert(warnings.begin(), std::to_string(gaps) + " of " + std::to_string(along.modes.positions.size()) +
                                           " positions are omitted; first at " + first_gap);
   if (undeformed > 0)
-    warnings.insert(warnings.begin(),
-                    std::to_string(undeformed) + " positions are linearised undeformed; first at " + first_undeformed);
+    warnings.insert(warnings.begin(), std::to_string(undeformed) +
+                                          " positions are linearised in the undeformed configuration; first at " +
+                                          first_undeformed);
   return warnings;
 }
 

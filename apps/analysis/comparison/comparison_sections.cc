@@ -172,7 +172,7 @@ std::vector<Section> sections_of(const Result &result, const ComparedShapes &sha
       "measures; "
       "a mode with low observability has no match." +
       (std::max(match.seen_a.maxCoeff(), match.seen_b.maxCoeff()) > 1.0005
-           ? " The modes do not span all motions of the measures, so observability is a weight that may exceed 100 %."
+           ? " Some motions of the measures are not combinations of these modes, so observability may exceed 100 %."
            : "")});
   section.parts.push_back(pairs_table(shapes));
   const std::size_t pairs = match.pairs.size();

@@ -24,10 +24,10 @@ void describe(Visitor &v, const DampingFor &x)
 {
   v("mode", x.mode, "", "number of the coupled mode");
   v("frequency_hz", x.frequency_hz, "Hz", "its undamped frequency");
-  v("wanted", x.wanted, "1", "damping ratio that it should have");
-  v("frame_ratio", x.frame_ratio, "1", "frame.damping.ratio with which it has it");
-  v("reached", x.reached, "1", "its damping ratio with this value");
-  v("without", x.without, "1", "its damping ratio without damping of the frame by ratio");
+  v("wanted", x.wanted, "1", "target damping ratio");
+  v("frame_ratio", x.frame_ratio, "1", "frame.damping.ratio that gives the target");
+  v("reached", x.reached, "1", "damping ratio of the mode with this value");
+  v("without", x.without, "1", "damping ratio of the mode with frame.damping.ratio = 0");
 }
 
 template <class Visitor>
@@ -94,8 +94,8 @@ public:
     const double found = mode(zeta).damping_ratio;
     if (std::isnan(found))
       throw std::invalid_argument("--damping-for: mode " + std::to_string(mode_) +
-                                  " has no damping ratio with the frame's at " + percent(zeta) +
-                                  ": it does not vibrate, or dampers mix it with others; take another mode");
+                                  " has no damping ratio if frame.damping.ratio is " + percent(zeta) +
+                                  ": it is overdamped, or dampers couple it with other modes; choose another mode");
     return found;
   }
 
@@ -135,7 +135,7 @@ public:
   std::vector<CommandOption> options() override
   {
     return {{"--damping-for", &wanted_,
-             "frame.damping.ratio with which a mode of the coupled machine has a damping ratio: \"3=0.02\""}};
+             "find the frame.damping.ratio that gives a mode of the coupled machine this damping ratio: \"3=0.02\""}};
   }
   bool requested(const Scene &) const override { return !wanted_.empty(); }
   void check(Session &session) override
@@ -166,9 +166,9 @@ public:
     found.frequency_hz          = ratio.mode(0.).frequency_hz;
     constexpr double given_back = 1e-12, largest = 0.999; // of a ratio, rounding; of a frame that still vibrates
     if (found.without > wanted + given_back)
-      throw std::invalid_argument(wanted_text() + ": without damping of the frame the mode has " +
-                                  percent(found.without) +
-                                  " already, a negative ratio would be needed; weaken other dampers, or ask for more");
+      throw std::invalid_argument(wanted_text() + ": the mode has a damping ratio of " + percent(found.without) +
+                                  " without damping of the frame, whose ratio would have to be negative; weaken other "
+                                  "dampers, or request a higher ratio");
     const auto excess = [&, wanted = wanted](double z) { return ratio(z) - wanted; };
     double     high   = std::min(largest, std::max(2. * wanted, 1e-3));
     double     above  = excess(high);
@@ -178,9 +178,9 @@ public:
       above = excess(high);
     }
     if (above < 0.)
-      throw std::invalid_argument(wanted_text() + ": even a ratio of " + short_text(largest) + " gives it " +
-                                  percent(wanted + above) +
-                                  " only, the frame takes too little part in it; give it dampers of its own");
+      throw std::invalid_argument(
+          wanted_text() + ": even a ratio of " + short_text(largest) + " gives only " + percent(wanted + above) +
+          ", because the frame contributes too little to this mode; add dampers that act on it");
     found.frame_ratio = found.without >= wanted - given_back
                             ? 0.
                             : root_of(excess, 0., found.without - wanted, high, above, given_back);

@@ -134,7 +134,7 @@ std::string growth_text(const std::complex<double> &s)
 {
   const std::string rate = " grows at " + short_text(s.real()) + " 1/s";
   if (s.imag() == 0.)
-    return "a non-oscillating motion that" + rate;
+    return "a non-oscillatory mode that" + rate;
   return "a vibration of " + short_text(s.imag() / two_pi) + " Hz that" + rate + " (damping ratio " +
          short_text(-s.real() / std::abs(s)) + ")";
 }

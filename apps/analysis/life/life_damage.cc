@@ -346,7 +346,7 @@ double damage_at(const Scene &scene, const ReducedFrame &frame, const LifeLoad &
     if (const auto at = std::size_t(place.point); group.name == place.of && at < group.search.position.size())
       if ((group.search.position[at] - place.at).norm() <= here * skin.size)
         return point_damage(*group.stress, load.states, load.sequence, group.rule, group.search, place.point).damage;
-  throw std::runtime_error("the frame of a further run has other points: its mesh is another one");
+  throw std::runtime_error("the frame of an additional run has a different mesh, without this point");
 }
 
 std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &found)
@@ -354,35 +354,34 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
   std::vector<std::string> warnings;
   const LifePlace         *worst = found.worst();
   if (!worst)
-    return {"life: no cycle was counted: the stress is constant, or all points are beside rigid surfaces, as those of "
-            "coarse frames"};
+    return {"life: no cycle was counted: the stress is constant, or all points of the mesh are next to rigid surfaces; "
+            "refine the mesh"};
   const auto place = [](const LifePlace &at)
   { return "(" + short_text(at.at[0]) + " " + short_text(at.at[1]) + " " + short_text(at.at[2]) + ")"; };
   if (worst->disagreement > resolved_disagreement)
     warnings.push_back("life: the mesh does not resolve the worst place " + place(*worst) +
-                       ": neighbouring elements disagree by " + percent(worst->disagreement, 2) + ", a factor of " +
-                       short_text(worst->error.mesh, 3) +
-                       " on life; make it finer there, or judge a weld by its hot spot");
+                       ": the stresses of neighbouring elements differ by " + percent(worst->disagreement, 2) +
+                       ", a factor of " + short_text(worst->error.mesh, 3) +
+                       " on life; refine it there, or use the hot-spot stress for a weld");
   if (found.beside_rigid && found.beside_rigid->damage > worst->error.total() * worst->damage)
-    warnings.push_back("life: the damage at " + place(*found.beside_rigid) + ", beside " + found.beside_rigid->nearby +
+    warnings.push_back("life: the damage at " + place(*found.beside_rigid) + ", next to " + found.beside_rigid->nearby +
                        ", is larger, " + short_text(found.beside_rigid->damage, 3) +
-                       ", but a rigid surface has no finite stress at its edge: no mesh resolves it; couple it by "
-                       "\"average\" or judge a weld by its hot spot");
+                       ", but the stress at the edge of a rigid surface is singular, so no mesh resolves it; use "
+                       "coupling = \"average\", or the hot-spot stress for a weld");
   constexpr double steady = 0.05; // of the damage: 1.6 % of the range with slope 3
   if (found.stroke_change > steady)
-    warnings.push_back("life: the run ends before the steady state: the damage of the last window and of that before "
-                       "differ by " +
-                       percent(found.stroke_change, 2) + "; let it run longer (run.end = " +
-                       short_text(scene.run.options.end) + " s), or start on the orbit (start.rule = \"periodic\")");
+    warnings.push_back("life: the run ends before the steady state: the damage of the last two windows differs by " +
+                       percent(found.stroke_change, 2) + "; extend it (run.end = " + short_text(scene.run.options.end) +
+                       " s), or start on the periodic solution (start.rule = \"periodic\")");
   if (found.closing > steady)
     warnings.push_back("life: the stress at the end of the load differs from that at its start by " +
                        percent(found.closing, 2) +
-                       " of its range: one repetition does not lead to the next; count a "
-                       "window by output.from, or let the run return");
+                       " of its range, so the load does not repeat smoothly; count one period only (output.from), or "
+                       "let the run end in its initial state");
   if (worst->cycles <= 1.)
     warnings.push_back("life: " + short_text(worst->cycles) +
-                       " cycle was counted at the worst place: the run holds one rise and fall, and nothing of what "
-                       "repeats within it");
+                       " cycle was counted at the worst place: the run contains only one rise and fall, so "
+                       "smaller repeated cycles are not counted");
   return warnings;
 }
 

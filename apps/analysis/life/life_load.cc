@@ -78,9 +78,9 @@ std::unique_ptr<Session> block_session(Session &own, const BlockRequest &block, 
   other->check_run();
   const ReducedFrame *there = other->machine().machine.model().reduced_frame();
   if (!there || !same_frame(frame, *there))
-    throw std::invalid_argument(place + "has another frame (" + (there ? frame_words(*there) : "none") +
-                                ") than this one (" + frame_words(frame) +
-                                "); let both extend one scene, and change no key of the frame");
+    throw std::invalid_argument(place + "has a different frame (" + (there ? frame_words(*there) : "none") +
+                                ") from this scene (" + frame_words(frame) +
+                                "); let both extend the same scene without changing keys of the frame");
   return other;
 }
 
@@ -90,7 +90,7 @@ void add_block(Session &own, const BlockRequest &block, const ReducedFrame &fram
   const Result result = other->run();
   if (!result.run->failure.empty() || result.run->interrupted)
     throw std::runtime_error(block.place + ": the run of \"" + other->scene().name +
-                             "\" does not come to its end: " + result.run->failure);
+                             "\" did not finish: " + result.run->failure);
   add_run(other->scene(), other->scene().life.get(), frame, *result.run, block.repetitions, load);
 }
 

@@ -31,7 +31,8 @@ std::string worst_words(const LifeResult &found)
   const LifePlace &worst = *found.worst();
   if (!(worst.damage > 0.))
     return "No damage: the largest range, " + short_text(worst.range / mega) + " MPa at " + position_words(worst) +
-           (worst.utilisation > 0. ? ", is " + percent(worst.utilisation, 3) + " of the cut-off of the curve." : ".");
+           (worst.utilisation > 0. ? ", is " + percent(worst.utilisation, 3) + " of the cut-off limit of the S-N curve."
+                                   : ".");
   return "Damage " + short_text(worst.damage, 3) + " in one repetition of the load at " + position_words(worst) +
          " of " + worst.of + ": " + life_words(worst.life) + " repetitions, " + life_words(worst.strokes) +
          " strokes or " + life_words(worst.hours) + " h until failure.";
@@ -49,16 +50,16 @@ std::string rule_words(const LifeResult &found)
   return "Curve " + found.rule.curve.name + "; " + found.measure + ", mean stress: " + found.mean_stress +
          ", Palmgren-Miner: " + found.miner + ", residue: " + found.residue + ". " + std::to_string(found.n_states) +
          " states, " + short_text(found.step, 3) + " s apart, at " + std::to_string(found.n_points) +
-         " points; bounds left " + std::to_string(found.looked_at) + " whose cycles had to be counted.";
+         " points; cycles were counted at " + std::to_string(found.looked_at) + ", the others are excluded by bounds.";
 }
 
 std::string steadiness_words(const LifeResult &found)
 {
   if (std::isfinite(found.stroke_change))
-    return "The damage of the last window and of that before differ by " + percent(found.stroke_change, 2) + ".";
+    return "The damage of the last two windows differs by " + percent(found.stroke_change, 2) + ".";
   if (std::isfinite(found.closing))
     return "The stress at the end differs from that at the start by " + percent(found.closing, 2) +
-           " of its range; a repetition begins with this jump.";
+           " of its range, so each repetition starts with a jump.";
   return "";
 }
 

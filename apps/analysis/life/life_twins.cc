@@ -22,10 +22,11 @@ double twin_damage(Session &session, const std::vector<std::string> &changes, co
   Session      twin(std::move(variant), {session.progress(), session.interruption()});
   const Result result = twin.run();
   if (!result.run->failure.empty() || result.run->interrupted)
-    throw std::runtime_error("the run with " + changes.front() + " does not come to its end: " + result.run->failure);
+    throw std::runtime_error("the run with " + changes.front() + " did not finish: " + result.run->failure);
   const coupling::ReducedFrame &frame  = *twin.machine().machine.model().reduced_frame();
   const double                  damage = damage_at(twin.scene(), frame, life_load(twin, *result.run), place);
-  return damage > 0. ? damage : throw std::runtime_error("the run with " + changes.front() + " does no damage there");
+  return damage > 0. ? damage
+                     : throw std::runtime_error("the run with " + changes.front() + " causes no damage at this point");
 }
 
 double life_factor(double a, double b)
@@ -79,7 +80,7 @@ std::vector<LifeDerivative> life_derivatives(Session &session, const LifeResult 
     const double   value = near + (near - far) / 3.; // without the term of second order
     LifeDerivative own{key.reported.key, value, ""};
     if (std::abs(near - far) > smooth * std::max(std::abs(near), std::abs(far)))
-      own.note = "not smooth: " + short_text(far, 3) + " over twice the distance; cycles appear or vanish";
+      own.note = "not smooth: " + short_text(far, 3) + " with twice the step; cycles appear or vanish";
     derivatives.push_back(std::move(own));
   }
   return derivatives;

@@ -221,7 +221,7 @@ public:
         CommandOption{"--ratio", &own_.ratio, "number of excitation periods per period of the solution (default 1)"}
             .above_zero()
             .at_most(1000),
-        {"--along", &own_.along, "continue the solutions in a scene key, such as parameters.speed"},
+        {"--along", &own_.along, "trace the solutions over a scene key, such as parameters.speed"},
         CommandOption{"--from", &own_.from, "first value of this key, such as \"800 1/min\""}.with("--along"),
         CommandOption{"--to", &own_.to, "last value of this key"}.with("--along"),
         CommandOption{"--points", &own_.points, "approximate number of points of the branch (default 100)"}

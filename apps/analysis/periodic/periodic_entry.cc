@@ -173,8 +173,8 @@ PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProbl
   entry.solution           = solution;
   constexpr double neutral = 1e-9; // distance of a multiplier from 1 that is none
   if (const double largest = solution.largest_multiplier(); std::abs(largest - 1.) <= neutral)
-    entry.solution.notes.push_back(
-        "a multiplier is 1: nearby motions neither approach this solution nor leave it, as with sticking friction");
+    entry.solution.notes.push_back("a multiplier is 1: nearby trajectories neither approach this solution nor diverge "
+                                   "from it, as with sticking friction");
   rows = std::max(rows, coupling::power_of_two(4 * harmonics_told * solution.ratio));
   if (solution.series)
     trace_signals(machine, problem, solution, signals, rows, entry);

@@ -35,9 +35,10 @@ std::string kind_text(const coupling::Recurrence &motion)
     return "drifting: moves away over these periods, like an unconstrained coordinate";
   if (motion.kind == "chaotic")
     return "chaotic: no repetition; nearby trajectories diverge";
-  return "still settling: converges to a motion that repeats" +
-         (motion.repeats > 0 ? " after " + std::to_string(motion.repeats) + " period" + (motion.repeats > 1 ? "s" : "")
-                             : std::string());
+  return "still settling: converges to a periodic solution" +
+         (motion.repeats > 0
+              ? " of " + std::to_string(motion.repeats) + " excitation period" + (motion.repeats > 1 ? "s" : "")
+              : std::string());
 }
 
 std::string range_text(const std::string &name, double begin, double end)

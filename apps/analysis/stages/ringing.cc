@@ -138,7 +138,7 @@ std::string leave_out_slow(std::vector<DampedOscillation> &found, const Ringing 
     return "";
   found.erase(slow, found.end());
   return "vibrations below " + rounded(periods_of_window / window) + " Hz are omitted: the window of " +
-         rounded(window) + " s after the last contact is shorter than two of their periods";
+         rounded(window) + " s after the last contact is shorter than two periods";
 }
 
 /// The strongest first, so that each is compared with those that may have made it.

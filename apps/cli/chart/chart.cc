@@ -402,16 +402,16 @@ Command chart_command()
   const auto own = std::make_shared<ChartCommandOptions>();
   return {
       "chart",
-      "work-precision chart: error against work of methods and settings",
+      "work-precision chart: error and CPU time of methods and settings",
       {"gestell chart apps/scenes/press_minimal.toml --quick -o results/chart"},
       CommandInput::scene,
       {{"--methods", &own->methods, "methods by name, such as bdf-2,exact*,cvode-5 (default: all)"},
        {"--steps", &own->steps, "fixed steps, such as \"40 us\",\"10 us\""},
        {"--tolerances", &own->tolerances, "tolerances of controlled steps, such as 1e-3,1e-5"},
-       {"--error", &own->errors, "errors for which a choice is given (default 1e-2,1e-3,1e-5,1e-7)"},
+       {"--error", &own->errors, "errors for which the fastest run is listed (default 1e-2,1e-3,1e-5,1e-7)"},
        {"--signals", &own->signals, "signals for the error (default: all of the scene)"},
        CommandOption{"--modes", &own->modes, "numbers of modes of the reduced frame, such as 10,20,50"}.above_zero(),
-       CommandOption{"--reference", &own->reference, "table of the reference motion (CSV), instead of a fine run"}
+       CommandOption{"--reference", &own->reference, "table of the reference solution (CSV), instead of a fine run"}
            .existing_file(),
        CommandOption{"--events", &own->events, "on: located, off: detected after the step, both (default)"}.one_of(
            {"on", "off", "both"}),

@@ -98,14 +98,14 @@ Reference own_reference(const WorkProblem &problem, std::vector<std::string> &no
       const Reference reference = attempt(problem, candidate, why);
       if (reference.values.size() > 0)
         return reference;
-      notes.push_back("no reference by " + candidate.how + ": " + why);
+      notes.push_back("no reference from " + candidate.how + ": " + why);
     }
     catch (const std::invalid_argument &reason)
     {
       why = reason.what();
-      notes.push_back("no reference by " + candidate.how + ": " + why);
+      notes.push_back("no reference from " + candidate.how + ": " + why);
     }
-  notes.push_back("no reference: errors are unknown, only the cost of each run; supply one by --reference");
+  notes.push_back("no reference: errors are unknown and only costs are compared; give a reference by --reference");
   Reference none;
   none.how    = "none, errors are unknown";
   none.method = fixed(problem, 1e4);

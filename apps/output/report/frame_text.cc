@@ -68,8 +68,9 @@ const char *const refined_words =
 
 const char *const static_residual_words =
     "The static load not represented by the modes is the share of the deflection energy under the frame's own weight "
-    "that the retained modes miss. Statics at the interfaces are exact. Signals and stresses are corrected for "
-    "constant weight; the missing share matters when the whole frame accelerates quickly. To reduce it, retain more "
+    "that the retained modes miss. The static response at the interfaces is exact. Signals and stresses are corrected "
+    "for "
+    "constant weight; the missing share matters only if the whole frame accelerates rapidly. To reduce it, retain more "
     "modes or set reduction.inertia_relief.";
 
 std::string words_above(double limit, double before, double frequency)
@@ -94,8 +95,8 @@ std::vector<std::string> frame_text(const ModelFacts &model)
   constexpr double rounding = 1e-11; // of the energies that cancel in a rigid motion
   if (const double share = model.frame.rigid_energy; !std::isnan(share))
     lines.push_back("elastic energy of rigid-body displacements without supports: " + short_text(share, 2) +
-                    " of its cancelling terms" +
-                    (share < rounding ? " (rounding error)" : " (more than rounding; check the mesh)"));
+                    " of the terms that cancel" +
+                    (share < rounding ? " (rounding error)" : " (above rounding error; check the mesh)"));
   if (model.free_motions > 0 || !model.frame.free_motions.empty())
     lines.push_back(free_line(model));
   if (!model.damping.empty())

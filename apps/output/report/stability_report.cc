@@ -29,11 +29,12 @@ std::string modes_section(const StabilityStudy &study)
 {
   if (study.modes.empty())
     return "";
-  return section("modes", "Numerical damping and period error of " + escape_xml(study.method),
-                 table_of(study.modes).html() +
-                     "<p class=\"soft\">Numerical damping adds to the physical damping. A positive period error means "
-                     "too slow. Modes without vibration are not listed.</p><h3>Other methods at this step</h3>" +
-                     table_of(study.verdicts).html());
+  return section(
+      "modes", "Numerical damping and period error of " + escape_xml(study.method),
+      table_of(study.modes).html() +
+          "<p class=\"soft\">Numerical damping adds to the physical damping. With a positive period error the computed "
+          "period is too long. Non-oscillatory modes are not listed.</p><h3>Other methods at this step</h3>" +
+          table_of(study.verdicts).html());
 }
 
 std::string maps_section(const StabilityStudy &study)

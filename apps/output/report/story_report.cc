@@ -23,10 +23,11 @@ std::string loads_html(const std::vector<LoadDuration> &loads)
   std::string html = loads.empty() ? "" : "<h3>Load durations relative to mode periods</h3>";
   for (const LoadDuration &load : loads)
     html += "<p>" + escape_xml(load_text(load)) + "</p>" + (load.modes.empty() ? "" : table_of(load.modes).html());
-  return loads.empty() ? ""
-                       : html + "<p class=\"soft\">Times are relative to the period T = 1/f of a mode. The residual "
-                                "vibration ratio is the amplitude after the fall relative to that after a sudden fall. "
-                                "The energy is that of the linear, undamped mode after the fall.</p>\n";
+  return loads.empty()
+             ? ""
+             : html + "<p class=\"soft\">Times are relative to the period T = 1/f of a mode. The residual vibration "
+                      "ratio is the amplitude after the load is removed, relative to that after a sudden removal. "
+                      "The energy is that of the linear, undamped mode after the removal.</p>\n";
 }
 
 } // namespace
@@ -46,8 +47,8 @@ std::string story_section(const Result &result)
                      loads_html(story.loads) +
                      titled("Oscillations through a clearance",
                             "Oscillation between two events of the same kind in which the deflection crosses the whole "
-                            "clearance. The observed frequency is compared with the frequency by the describing "
-                            "function (stiffness of the first harmonic).",
+                            "clearance. The observed frequency is compared with that of the describing function "
+                            "(first-harmonic stiffness).",
                             story.plays),
                  Shown::folded);
 }

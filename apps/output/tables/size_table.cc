@@ -73,8 +73,8 @@ std::string forecast_text(const SizeForecast &forecast)
   if (forecast.coordinates > 0.)
     text << " a model with " << short_text(forecast.coordinates, 2) << " DOFs,";
   text << ' ' << short_text(forecast.model_cpu_s, 2) << " CPU s from CAD to the end of its run; "
-       << short_text(forecast.cpu_s, 2) << " CPU s including its error estimates, "
-       << short_text(forecast.spent_cpu_s, 2) << " CPU s of them so far";
+       << short_text(forecast.cpu_s, 2) << " CPU s including its error estimates, of which "
+       << short_text(forecast.spent_cpu_s, 2) << " CPU s are used so far";
   return text.str();
 }
 
@@ -110,12 +110,12 @@ std::string size_text(const SizeResult &size)
     if (const SizeRung *cheapest = cheapest_of(size))
     {
       const double chosen = size.all[size.chosen_of_all].cpu_s;
-      text << "the cheapest within the tolerance of the finer model takes " << short_text(cheapest->cpu_s, 3)
-           << " CPU s, the chosen one " << short_text(chosen, 3) << " CPU s ("
+      text << "the cheapest model within the tolerance, compared with the finer model, takes "
+           << short_text(cheapest->cpu_s, 3) << " CPU s, the chosen one " << short_text(chosen, 3) << " CPU s ("
            << short_text(chosen / cheapest->cpu_s, 3) << " times as much); see size_all.csv\n";
     }
     else
-      text << "none is within the tolerance of the finer model; see size_all.csv\n";
+      text << "no model is within the tolerance, compared with the finer model; see size_all.csv\n";
   }
   for (const std::string &what : size.skipped)
     text << "not computed: " << what << '\n';
@@ -130,8 +130,8 @@ std::string size_text(const SizeResult &size)
       text << (i > 0 ? ", " : "") << size.unasked[i];
     text << '\n';
   }
-  text << "cost: " << short_text(size.cpu_s, 3) << " CPU s, as much as " << short_text(size.runs(), 2)
-       << " runs of the chosen model with its preparation\n";
+  text << "cost: " << short_text(size.cpu_s, 3) << " CPU s, equal to " << short_text(size.runs(), 2)
+       << " runs of the chosen model including preparation\n";
   return text.str();
 }
 

@@ -31,7 +31,7 @@ std::string load_text(const LoadDuration &load)
          " s; rise time " + milliseconds(load.rise) + ", below 90 % after " + milliseconds(load.t_fall - load.begin) +
          ", fall time " + milliseconds(load.fall) + "; " + modes_text(load) +
          (load.is_coarse() ? "; rows of the history are " + milliseconds(load.row_step) +
-                                 " apart, too coarse for these times: reduce output.step"
+                                 " apart, which is too coarse for these times: reduce output.step"
                            : "");
 }
 

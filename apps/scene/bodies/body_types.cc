@@ -22,9 +22,10 @@ const BodyType &body_type(coupling::BodyKind kind)
 
 Key mass_key()
 {
-  return key::number("mass", kind::mass, "mass of the body; with `cad` distributed uniformly, instead of `material`")
+  return key::number("mass", kind::mass,
+                     "mass of the body; with `cad` it is distributed uniformly and replaces `material`")
       .above_zero()
-      .by_default("required; with `cad` from the density")
+      .by_default("required; with `cad` density times volume")
       .unless("cad")
       .into(&BodyRequest::mass);
 }

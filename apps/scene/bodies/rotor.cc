@@ -29,7 +29,7 @@ std::optional<UnbalanceRequest> read_unbalance(const SceneTable &table)
     for (const char *key : {"unbalance_phase", "unbalance_position"})
       if (table.has(key))
         throw table.error(std::string("has '") + key +
-                          "' but no 'unbalance'; give it, such as unbalance = \"2.4 g m\"");
+                          "' but no 'unbalance'; add one, such as unbalance = \"2.4 g m\"");
     return std::nullopt;
   }
   auto unbalance = table.filled<UnbalanceRequest>();
@@ -43,9 +43,10 @@ std::optional<UnbalanceRequest> read_unbalance(const SceneTable &table)
 void check_unbalance(const SceneTable &table, const BodyRequest &body)
 {
   if (const double U = body.unbalance ? body.unbalance->amount : 0.; U * U > body.mass * body.inertia && body.mass > 0.)
-    throw table.error("the unbalance of " + short_text(U) + " kg m puts its " + short_text(body.mass) + " kg " +
-                      short_text(U / body.mass) + " m off its axis, about which it would have at least " +
-                      short_text(U * U / body.mass) + " kg m^2; inertia is " + short_text(body.inertia) + " kg m^2");
+    throw table.error("the unbalance of " + short_text(U) + " kg m places the centre of mass of " +
+                      short_text(body.mass) + " kg " + short_text(U / body.mass) +
+                      " m from the axis, so the inertia must be at least " + short_text(U * U / body.mass) +
+                      " kg m^2, got " + short_text(body.inertia) + " kg m^2");
 }
 
 void read_rotor(const SceneTable &table, BodyRequest &body)
@@ -65,8 +66,9 @@ BodyType rotor_type()
       joined({{key::direction("axis", "axis of rotation").into(&BodyRequest::axis),
                key::named("on", "carrier: `\"frame.NAME\"`, a body or `\"ground\"`").by_default("ground"),
                inertia_key("moment of inertia about the axis"),
-               key::number("mass", kind::mass,
-                           "mass, which acts on the carrier; with `cad` distributed uniformly, instead of `material`")
+               key::number(
+                   "mass", kind::mass,
+                   "mass, which acts on the carrier; with `cad` it is distributed uniformly and replaces `material`")
                    .from_zero()
                    .by_default(&BodyRequest::mass),
                key::vector("position", kind::length,

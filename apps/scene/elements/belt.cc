@@ -127,7 +127,7 @@ std::optional<double> read_links(const SceneTable &table)
 void read_chain(const SceneTable &table, const Names &names, Scene &scene)
 {
   if (table.has("pretension") && table.has("links"))
-    throw table.error("has 'pretension' and 'links', which determines it; give one of them");
+    throw table.error("has both 'pretension' and 'links', which fix the same length; give only one");
   const WheelPair wheels = read_wheels(table, names, "sprocket");
   // Steel yields before half a percent; a chain, mounted without pull, comes in pairs of links.
   add_loop(table, scene, wheels,

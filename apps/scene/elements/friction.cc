@@ -101,7 +101,7 @@ void read_brake(const SceneTable &table, const Names &names, Scene &scene)
     throw table.error("static_capacity", "is below 'capacity'; the static capacity must be at least the sliding one");
   if (!table.has("engagement"))
     throw table.error(
-        "needs 'engagement', a share from 0 to 1: ramps such as [{ at = \"1 s\", to = 1, rate = \"5/s\" }]");
+        "needs 'engagement', a fraction from 0 to 1: ramps such as [{ at = \"1 s\", to = 1, rate = \"5/s\" }]");
   const double from = table.value("initial_engagement");
   const auto   keys = level_profile(kind::number, "5");
   brake.engagement  = read_course(table, "engagement", keys, from);

@@ -184,7 +184,7 @@ bool is_mode(const DataSet &set, const Nodes &nodes, UniversalMode &mode)
     set.refuse(set.records.size(), "ends within its head; it needs eight lines before the nodes");
   const std::vector<double> form = numbers(set, 5, 6), head = numbers(set, 6, 7), real = numbers(set, 7, 8);
   if (form.size() < 6 || head.size() < 2)
-    set.refuse(5, "needs six numbers that say what its data are, and two sizes in the line after them");
+    set.refuse(5, "needs six numbers that define its data, and two sizes in the next line");
   const int  analysis = whole(form[1]), width = whole(form[5]);
   const bool is_normal = analysis == 2, is_complex = analysis == 3 || analysis == 7; // eigenvalues
   if (!is_normal && !is_complex)
@@ -231,8 +231,7 @@ std::vector<UniversalMode> read_universal_modes(const std::string &file)
     if (UniversalMode mode; set.kind == "55" && is_mode(set, nodes, mode))
       modes.push_back(std::move(mode));
   if (modes.empty())
-    throw std::invalid_argument(file +
-                                ": holds no modes, which are written as data sets 55 of normal or complex modes");
+    throw std::invalid_argument(file + ": contains no modes (data sets 55 of normal or complex modes)");
   return modes;
 }
 

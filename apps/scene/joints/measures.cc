@@ -117,7 +117,7 @@ const std::vector<MeasureType> &measure_types()
         measure_signals, joined({place_on_ground(), {key::direction("about", "axis of the angle")}}), read_angle},
        position_function_measure(),
        {"sum",
-        "Sum of terms factor times motion, all lengths or all angles. A clearance `on` it is the backlash of a gear.",
+        "Sum of terms (factor times motion), all lengths or all angles. A clearance `on` it is the backlash of a gear.",
         measure_signals,
         {key::composed("terms", Key::Form::tables, kind::number,
                        {key::named("of", "[a measure or coordinate](#places-and-measures)"),

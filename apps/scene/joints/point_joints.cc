@@ -103,7 +103,7 @@ void read_universal(const SceneTable &table, const Names &names, JointRequest &j
   read_one_point(table, names, joint);
   refuse_points(table, names, joint);
   if (std::abs(fem::dot(joint.axis, joint.axis_to)) > 1e-9)
-    throw table.error("axis_to", "must be perpendicular to 'axis_from': both are the axes of the cross");
+    throw table.error("axis_to", "must be perpendicular to 'axis_from', because both are axes of the cross");
 }
 
 void demand_universal(JointEquations &equations, const JointRequest &joint)

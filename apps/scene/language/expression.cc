@@ -103,8 +103,8 @@ Expression elementary(const std::string &name, Function f, const Expression &x)
     fail("takes " + name + "() of revolutions (1/min, rpm); it needs a plain number");
   if (x.counts == Counts::minutes && of_angle)
     fail("takes " + name +
-         "() of a value with minutes or hours, which may count revolutions; write 1500/min first for revolutions, or "
-         "use seconds");
+         "() of a value in minutes or hours, which is ambiguous; for revolutions write 1500/min first, for time use "
+         "seconds");
   return {applied(f, x.formula), {}, x.checked, Counts::nothing};
 }
 

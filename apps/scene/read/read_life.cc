@@ -17,22 +17,23 @@ const std::vector<Key> &curve_keys()
           .above_zero()
           .by_default("`table` or `strength`")
           .into(&CurveRequest::notch_class),
-      key::choice("standard", {"EN 1993-1-9", "EN 13001-3-1"}, true, "standard of the class"),
-      key::composed("table", Key::Form::rows, kind::pressure, {},
-                    "rows of cycles and stress range, straight in logarithms between them; below the last range "
-                    "nothing is damaged")
+      key::choice("standard", {"EN 1993-1-9", "EN 13001-3-1"}, true, "standard that defines `class`"),
+      key::composed(
+          "table", Key::Form::rows, kind::pressure, {},
+          "rows of cycles and stress range, interpolated in logarithms; ranges below the last one cause no damage")
           .by_default("`class` or `strength`"),
       key::number("strength", kind::pressure,
-                  "tensile strength R_m: without `class` and `table` the curve of unwelded material after FKM; also "
-                  "for `mean_stress`")
+                  "tensile strength R_m; without `class` and `table` it defines the FKM curve of unwelded material; "
+                  "also used by `mean_stress`")
           .above_zero()
           .by_default("none")
           .into(&CurveRequest::strength),
-      key::plain("material", Key::Form::text, "group of FKM: `\"steel\"`, `\"cast steel\"`, ...").by_default("steel"),
-      key::number("design_factor", kind::number, "design factor K of FKM: roughness, size, treatment of the surface")
+      key::plain("material", Key::Form::text, "FKM material group: `\"steel\"`, `\"cast steel\"`, ...")
+          .by_default("steel"),
+      key::number("design_factor", kind::number, "FKM design factor K: roughness, size, surface treatment")
           .above_zero()
           .by_default(&CurveRequest::design_factor),
-      key::number("ratio", kind::number, "stress ratio R of the cycles that a table holds for, with `mean_stress`")
+      key::number("ratio", kind::number, "stress ratio R of the cycles of `table`, used by `mean_stress`")
           .by_default("any")
           .into(&CurveRequest::ratio),
       key::number("safety", kind::number, "partial factor, which divides the ranges of the curve")
@@ -46,18 +47,18 @@ const std::vector<Key> &weld_keys()
   static const std::vector<Key> keys = {
       key::plain("name", Key::Form::text, "name of the weld").by_default("of its surfaces"),
       key::plain("surfaces", Key::Form::texts,
-                 "names of `[frame.surface.NAME]` with a plane, cylinder or box: one is an area, two a line where both "
-                 "meet; stresses are taken on the first"),
+                 "names of `[frame.surface.NAME]` with a plane, cylinder or box: one surface is an area, two are a "
+                 "line where they meet; stresses are evaluated on the first"),
       key::direction("direction", "direction across the weld")
-          .by_default("in the first surface, away from the second; of an area none, see `measure`"),
+          .by_default("in the first surface, away from the second; none for an area, see `measure`"),
       key::choice("stress", {"normal", "shear"}, true, "stress across the weld, or shear along it"),
       key::table("curve", curve_keys(), "its S-N curve").by_default("that of `[life]`"),
-      key::number("thickness", kind::length, "thickness t of the plate: extrapolates to the hot spot of a line")
+      key::number("thickness", kind::length, "thickness t of the plate, for extrapolation to the hot spot of a line")
           .above_zero()
           .by_default("no extrapolation")
           .into(&WeldRequest::thickness),
       key::composed("distances", Key::Form::numbers, kind::number, {},
-                    "distances from the line of two points, linear, or three, quadratic, in t")
+                    "distances of the extrapolation points from the line, in t: two (linear) or three (quadratic)")
           .by_default("[0.4, 1]")};
   return keys;
 }
@@ -66,7 +67,7 @@ const std::vector<Key> &block_keys()
 {
   static const std::vector<Key> keys = {
       key::plain("scene", Key::Form::file, "scene of this load, with the same frame"),
-      key::number("repetitions", kind::number, "how often its run is repeated in the collective")
+      key::number("repetitions", kind::number, "number of repetitions of its run in the load spectrum")
           .above_zero()
           .by_default(&BlockRequest::repetitions)};
   return keys;
@@ -76,36 +77,35 @@ const std::vector<Key> &life_keys()
 {
   static const std::vector<Key> keys = {
       key::table("curve", curve_keys(), "S-N curve of the skin, `{ class = 71 }`")
-          .by_default("none: only welds are judged"),
+          .by_default("none: only welds are assessed"),
       key::choice("measure", {"critical plane", "signed von mises"}, true,
-                  "stress that is counted where no direction is given: the normal stress on the plane of the largest "
-                  "damage, or von Mises with the sign of the mean pressure"),
+                  "stress for counting if no direction is given: normal stress on the plane of largest damage, or von "
+                  "Mises stress with the sign of the mean normal stress"),
       key::choice("mean_stress", {"none", "goodman", "fkm"}, true,
-                  "correction of ranges for their mean; both others need `strength`"),
+                  "mean stress correction; `\"goodman\"` and `\"fkm\"` need `strength`"),
       key::choice("miner", {"original", "elementary", "consequent"}, true,
-                  "ranges below the knee: no damage in the original rule, by the extended slope in the elementary "
-                  "one, by a limit that falls with the damage in the consequent one. Classes of welds have their own "
-                  "second slope and cut-off"),
+                  "ranges below the knee: no damage (original), damage by the extended slope (elementary), or a limit "
+                  "that falls as damage grows (consequent). Weld classes have their own second slope and cut-off"),
       key::choice("residue", {"repeated", "half"}, true,
-                  "ranges that no cycle closes: closed by the next repetition of the load, or half cycles after ASTM "
-                  "E1049"),
-      key::number("repetitions", kind::number, "how often the run of this scene is repeated in the collective")
+                  "ranges that form no closed cycle: closed by the next repetition of the load, or counted as half "
+                  "cycles (ASTM E1049)"),
+      key::number("repetitions", kind::number, "number of repetitions of this run in the load spectrum")
           .above_zero()
           .by_default(&LifeRequest::repetitions),
-      key::number("strokes", kind::number, "strokes that one run stands for")
+      key::number("strokes", kind::number, "number of strokes that one run represents")
           .above_zero()
           .by_default(&LifeRequest::strokes),
-      key::number("period", kind::time, "time in service that one run stands for")
+      key::number("period", kind::time, "time in service that one run represents")
           .above_zero()
           .by_default("its duration from `output.from`")
           .into(&LifeRequest::period),
-      key::number("step", kind::time, "interval of the states that are counted")
+      key::number("step", kind::time, "interval of the states used for counting")
           .above_zero()
           .by_default("the fixed step; with a tolerance 1/20000 of the run")
           .into(&LifeRequest::step),
       key::composed("weld", Key::Form::tables, kind::number, weld_keys(), "`[[life.weld]]`").by_default("none"),
       key::composed("block", Key::Form::tables, kind::number, block_keys(),
-                    "`[[life.block]]`: further loads of the collective, in their order")
+                    "`[[life.block]]`: further runs of the load spectrum, in order")
           .by_default("none")};
   return keys;
 }
@@ -176,7 +176,7 @@ WeldRequest read_weld(const SceneTable &table, const fem::FrameSpecification &fr
   if (weld.thickness > 0. && weld.surfaces.size() != 2)
     throw table.error("thickness", "belongs to a line; name the two surfaces that meet there");
   if (table.has("distances") && weld.thickness == 0.)
-    throw table.error("distances", "are in thicknesses; give 'thickness', too");
+    throw table.error("distances", "are multiples of the thickness; give 'thickness'");
   if (weld.distances.size() < 2 || weld.distances.size() > 3 || !(weld.distances.front() > 0.) ||
       !std::is_sorted(weld.distances.begin(), weld.distances.end(), std::less_equal<>()))
     throw table.error("distances", "needs two or three numbers above 0 that rise, such as [0.4, 1] or [0.4, 0.9, 1.4]");

@@ -24,7 +24,7 @@ std::vector<std::string> stage_names(const SceneTable &stages, std::size_t n_bor
     names = stages.texts("names");
   if (names.size() != n_borders + 1)
     throw stages.error("names", std::to_string(names.size()) + " names, but " + count_text(n_borders, "border") +
-                                    " part the run into " + std::to_string(n_borders + 1) +
+                                    " for " + std::to_string(n_borders + 1) +
                                     " stages; give one more name than boundaries");
   return names;
 }
@@ -159,7 +159,7 @@ const std::vector<Key> &stress_keys()
                  "equivalent stress, see `step`")
           .by_default("`\"stress\"` if no other instant is requested"),
       key::plain("smallest", Key::Form::texts, "signals at whose minimum stresses are written").by_default("none"),
-      key::number("step", kind::time, "interval of the states among which the largest stress is searched")
+      key::number("step", kind::time, "interval of the states that are searched for the largest stress")
           .above_zero()
           .by_default("`output.step`, or 1/5000 of the run if that is longer")};
   return keys;
@@ -195,7 +195,8 @@ const std::vector<Key> &output_keys()
   static const std::vector<Key> keys = {
       key::map("signals", kind::number, {},
                "`{ F_P = \"rod.force\", x1 = \"-frame.crown.uz\" }`; a leading minus changes the sign. With `{ Q4 = { "
-               "signal = \"cylinder.force\", from = \"limiter\" } }` extremes count from the first event of that name, "
+               "signal = \"cylinder.force\", from = \"limiter\" } }` extremes are evaluated from the first event of "
+               "that name, "
                "including the value after a jump. A list of paths is also accepted; the paths are then the names")
           .also({Key::Form::texts})
           .by_default("none"),
@@ -204,10 +205,9 @@ const std::vector<Key> &output_keys()
           .above_zero()
           .by_default("the fixed step; with a tolerance 1/2000 of the run")
           .into(&coupling::RunOptions::output_step),
-      key::number(
-          "from", kind::time,
-          "start of the window in which extremes, key numbers and spectra are taken; or `\"last period\"`, [see "
-          "there](#a-window-for-results)")
+      key::number("from", kind::time,
+                  "start of the window for extremes, key numbers and spectra; or `\"last period\"`, [see "
+                  "there](#a-window-for-results)")
           .also({Key::Form::text})
           .by_default("the start of the run"),
       key::number("picture_step", kind::time, "interval between pictures of the motion; 0: none")
@@ -215,8 +215,8 @@ const std::vector<Key> &output_keys()
           .by_default("1/100 of the run")
           .into(&coupling::RunOptions::picture_step),
       key::truth("allow_large", coupling::RunOptions().allow_large,
-                 "accept more than 1 GB of history and states, or 20 000 pictures (otherwise an error), and write all "
-                 "pictures to `motion/` (otherwise at most 100, fewer to stay within 20 MB, but at least 24)")
+                 "`true` removes two limits: more than 1 GB of history and states, or 20 000 pictures, is an error; "
+                 "`motion/` gets at most 100 pictures (fewer to stay within 20 MB, but at least 24)")
           .into(&coupling::RunOptions::allow_large),
       key::table("stress", {}, "stresses, [see there](#stress)").by_default("none"),
       key::table("stages", {}, "parts of the run between events, [see there](#stages)").by_default("none")};
@@ -226,7 +226,7 @@ const std::vector<Key> &output_keys()
 const std::vector<Key> &watched_signal_keys()
 {
   static const std::vector<Key> keys = {key::plain("signal", Key::Form::text, "path of the signal, `\"rod.force\"`"),
-                                        key::plain("from", Key::Form::text, "event after which extremes count")};
+                                        key::plain("from", Key::Form::text, "event from which extremes are evaluated")};
   return keys;
 }
 

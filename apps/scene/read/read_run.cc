@@ -188,7 +188,7 @@ const std::vector<Key> &run_keys()
         key::plain("order", Key::Form::whole, "order: `bdf` 1 to 6; `exact` with `\"collocation\"` 2, 4, 6 or 8")
             .by_default("2, with `tolerance` 5; for `exact` 4")},
        parameter_keys(),
-       {key::truth("force_unstable", run.force_unstable, "run although a mode grows with this method and step")
+       {key::truth("force_unstable", run.force_unstable, "run even if the method is unstable for a mode at this step")
             .into(&Run::force_unstable),
         key::plain("max_halvings", Key::Form::whole,
                    "maximum number of step halvings after a failed Newton iteration, 0 to 40")

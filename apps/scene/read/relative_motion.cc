@@ -145,7 +145,7 @@ std::vector<Key> motion_keys()
       key::named("to", "the other body, frame.INTERFACE or marker").by_default("ground"),
       key::direction("direction", "direction of the displacement u").by_default("axis of the slider, if there is one"),
       key::direction("about", "axis of the angle u").by_default("axis of the rotor or planar body, if there is one"),
-      key::vector("at_from", kind::length, "point of `from` whose displacement counts, in the reference configuration")
+      key::vector("at_from", kind::length, "point of `from` whose displacement is used, in the reference configuration")
           .by_default(""),
       key::vector("at_to", kind::length, "point of `to`, in the reference configuration").by_default(""),
       key::named("on", "measure used as u, instead of `from` and `to`").by_default("`from`"),

@@ -123,8 +123,8 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
     constexpr double rough = 0.05; // of a difference of frames: larger errors are reported
     if (derivative.curvature > rough)
       warning = "derivatives by " + key.reported.key + " come from " + key.reported.frame +
-                "; their mean deviates from the frame between them by " + percent(derivative.curvature, 2) +
-                " of their difference, which is the possible error of the derivatives" +
+                "; their mean differs from the unchanged frame by " + percent(derivative.curvature, 2) +
+                " of the difference between them, so the derivatives may have this error" +
                 (anew ? ": a finer mesh reduces the scatter" : "");
     return derivative;
   }

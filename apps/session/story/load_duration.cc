@@ -233,7 +233,7 @@ std::vector<LoadDuration> load_durations(const std::vector<coupling::Signal> &si
       if (const coupling::KeptState state = state_at_fall(*load, *result.run); state.q.size() == machine.size())
         add_modes(placement, modes.at(state), modes.most(), *load);
       else
-        load->unknown = "the run stored no state near its fall";
+        load->unknown = "no state was stored near the end of the load";
       loads.push_back(*load);
     }
   }

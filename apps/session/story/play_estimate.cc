@@ -219,7 +219,7 @@ std::string limits_of(const PlayEstimate &cycle, const PlayEstimate *next)
   std::string      limits;
   constexpr double mostly_open = 0.3; // kappa below which the motion is far from harmonic
   if (cycle.stiffness_share < mostly_open)
-    limits = "mostly open, far from harmonic";
+    limits = "mostly open, strongly anharmonic";
   constexpr double decays = 0.3; // share of the amplitude lost until the next cycle
   if (next && next->amplitude < (1. - decays) * cycle.amplitude)
     limits += (limits.empty() ? "" : "; ") + std::string("the amplitude decays fast");

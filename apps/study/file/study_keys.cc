@@ -90,7 +90,7 @@ const std::vector<Key> &study_design_keys()
 const std::vector<Key> &study_surface_keys()
 {
   static const std::vector<Key> keys = {
-      key::choice("order", {"quadratic", "interactions", "linear"}, true, "terms of the surfaces"),
+      key::choice("order", {"quadratic", "interactions", "linear"}, true, "terms of the response surfaces"),
       key::number("confidence", kind::number, "confidence level of the coefficients, above 0 and below 1")
           .by_default(0.95),
       key::plain("outputs", Key::Form::texts, "outputs with a surface").by_default("all")};
@@ -117,7 +117,7 @@ const std::vector<Key> &study_limit_keys()
 const std::vector<Key> &study_robust_keys()
 {
   static const std::vector<Key> keys = {
-      key::choice("on", {"surface", "runs"}, true, "model of the draws"),
+      key::choice("on", {"surface", "runs"}, true, "evaluation of the draws: on the response surfaces, or by runs"),
       key::plain("draws", Key::Form::whole, "number of draws of the scattered variables").by_default("10000; 100 runs"),
       key::plain("seed", Key::Form::whole, "seed of the draws").by_default("1")};
   return keys;
@@ -136,7 +136,8 @@ const std::vector<Key> &study_optimise_keys()
       key::plain("seed", Key::Form::whole, "seed of the other starting points").by_default("1"),
       key::plain("most_runs", Key::Form::whole, "maximum number of points of a search").by_default("1000; 60 runs"),
       key::truth("verify", true, "verify the optimum of the surfaces by a run"),
-      key::plain("pareto", Key::Form::whole, "number of points of the Pareto front of all goals, on the surfaces")
+      key::plain("pareto", Key::Form::whole,
+                 "number of points of the Pareto front of all goals, computed on the response surfaces")
           .by_default("none"),
       key::table("robust", study_robust_keys(), "effect of the scatter of variables on the outputs at the optimum")
           .by_default("none")};

@@ -39,11 +39,11 @@ Derivatives derivatives_for(SearchMethod method)
 void check_options(const OptimumOptions &options)
 {
   if (options.starts < 1)
-    refuse_search("it has " + std::to_string(options.starts) + " starts; it needs one at least");
+    refuse_search("it has " + std::to_string(options.starts) + " starts; at least one is needed");
   if (!(options.tolerance > 0.))
     refuse_search("its tolerance is " + short_text(options.tolerance) + "; it must be positive");
   if (options.most_evaluations < 1)
-    refuse_search("it may make " + std::to_string(options.most_evaluations) + " evaluations; it needs one at least");
+    refuse_search("it may make " + std::to_string(options.most_evaluations) + " evaluations; at least one is needed");
 }
 
 /// Where the searches begin, one per row.

@@ -280,7 +280,7 @@ std::vector<int> nondominated(const Eigen::MatrixXd &values, const std::vector<S
 std::vector<ParetoPoint> pareto_front(const OutputModel &model, const OptimumTask &task, const ParetoOptions &options)
 {
   if (task.goals.size() < 2)
-    throw std::invalid_argument("study: a Pareto front needs two goals at least; to minimise one take find_optimum");
+    throw std::invalid_argument("study: a Pareto front needs at least two goals; to minimise one use find_optimum");
   const Eigen::VectorXd middle = 0.5 * (task.low + task.high);
   const Eigen::VectorXd values = model(middle, Derivatives::none).values;
   check_task(task, static_cast<int>(values.size()));

@@ -112,7 +112,7 @@ void mark_window(const StudyTable &table, const RowChoice &choice, Chart &chart)
     panel.curves.push_back(edge);
   }
   panel.curves.push_back(
-      tile_name("its window, " + short_text(from, 3) + " to " + short_text(to, 3) + ' ' + x.unit, colour));
+      tile_name("feasible range, " + short_text(from, 3) + " to " + short_text(to, 3) + ' ' + x.unit, colour));
   panel.tiles.push_back({from, to, chart.y.begin, chart.y.begin + bar_height * (chart.y.end - chart.y.begin), colour,
                          family_of(table, choice.task, choice.best) + ": all limits satisfied"});
 }

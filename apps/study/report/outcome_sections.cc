@@ -197,10 +197,12 @@ std::string front_section(const StudyFindings &findings, Pictures &pictures)
   if (html.empty())
     return "";
   return section("front", "Pareto front",
-                 html + "<p class=\"soft\">No run is at least as good in all goals and better in one." +
+                 html +
+                     "<p class=\"soft\">For each run on the front, no other run is at least as good in all goals and "
+                     "better in one." +
                      (findings.front.empty()
                           ? ""
-                          : " The front on the surfaces is in front.csv; it has the errors of the surfaces.") +
+                          : " The front computed on the response surfaces is in front.csv; it contains their errors.") +
                      "</p>\n");
 }
 
@@ -212,9 +214,10 @@ std::string robust_section(const StudyFindings &findings)
             robust_words(result) + robust_table(result);
   if (html.empty())
     return "";
-  return section("robust", "Effect of scatter of the variables",
-                 html + "<p class=\"soft\">±: standard error of the sample. Quantiles are given with their 95 % "
-                        "confidence interval.</p>\n");
+  return section(
+      "robust", "Effect of scatter of the variables",
+      html + "<p class=\"soft\">±: standard error due to the number of draws. Quantiles are given with their 95 % "
+             "confidence interval.</p>\n");
 }
 
 } // namespace gestell::apps

@@ -41,8 +41,8 @@ void ModeProblem::multiply(const Eigen::SparseMatrix<double> &A, const double *x
 void ModeProblem::stiffness_times(const double *x, double *y) const
 {
   if (!C_)
-    throw std::invalid_argument("the eigensolver needs products with the stiffness; choose it by "
-                                "reduction.eigensolver, or by -reduction_eps_type");
+    throw std::invalid_argument("this eigensolver needs products with the stiffness matrix, which exist only if it is "
+                                "set by reduction.eigensolver or -reduction_eps_type");
   multiply(*C_, x, y);
 }
 

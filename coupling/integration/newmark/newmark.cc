@@ -31,8 +31,8 @@ void refuse_with_joints(const Newmark::Options &o)
 {
   const std::string way = "; use bdf, or generalised-alpha with rho_inf below 1, or hht with alpha below 0";
   if (o.beta == 0.)
-    throw std::invalid_argument("central differences: not possible with ideal joints, whose positions depend on no "
-                                "unknown of the step; use bdf");
+    throw std::invalid_argument("central differences: not possible with ideal joints, because new positions are "
+                                "computed without the joint forces of the step; use bdf");
   if (o.gamma <= 0.5)
     throw std::invalid_argument(
         "Newmark: without numerical damping the forces of ideal joints oscillate from step to step without decay" +

@@ -19,8 +19,8 @@ Wilson::Wilson(const SecondOrderSystem &system, const Options &options)
     : OneStep(system, "Wilson", checked(options).step, options.max_halvings, options.newton), theta_(options.theta)
 {
   if (system.joints().n_rows() > 0)
-    throw std::invalid_argument("Wilson: not possible with ideal joints, which it satisfies at t + theta h, so that "
-                                "they drift at the ends of steps; use bdf or generalised-alpha");
+    throw std::invalid_argument("Wilson: not possible with ideal joints: it satisfies them at t + theta h, so they "
+                                "drift at the end of each step; use bdf or generalised-alpha");
   for (Eigen::VectorXd *x : {&f_, &q_, &v_, &product_, &x_})
     x->setZero(system.linear().size());
   for (LocalState *state : {&base_, &ahead_})

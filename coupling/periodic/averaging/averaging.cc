@@ -70,7 +70,7 @@ FourierSeries AveragingMethod::series_of(const PeriodicProblem &problem, SlowFlo
     const double x = (problem.phase_value - flow.mean()[problem.phase]) / (a * flow.shape()[problem.phase]);
     if (!(std::abs(x) <= 1.))
       throw std::invalid_argument(
-          "averaging: the coordinate of the phase condition does not reach its value in this motion; give its mean");
+          "averaging: the motion never reaches the value of the phase condition; set it to the mean of the coordinate");
     const double side = (flow.shape()[problem.phase] > 0.) != problem.phase_falls ? 1. : -1.;
     z                 = a * std::exp(Complex(0., -side * std::acos(x) - series.omega * problem.begin));
   }

@@ -296,8 +296,8 @@ PeriodicSolution shoot_in_segments(SegmentEquations &equations, const PeriodicPr
   if (!(equations.closing() <= std::max(options.tolerance, left_by_steps)))
   {
     std::ostringstream text;
-    text << equations.segments() << " segments still miss by " << equations.closing() << " after " << iterations
-         << " Newton steps";
+    text << equations.segments() << " gaps between segments are still " << equations.closing() << " after "
+         << iterations << " Newton steps";
     throw NoPeriodicMotion(text.str());
   }
   PeriodicSolution solution = equations.solution();

@@ -128,7 +128,7 @@ private:
       if (name == rule)
         refuse(head + "generated nodes and elements are not read; " + flat);
     if (name == "IMPERFECTION")
-      refuse(head + "transformed nodes are not read; give them in their final position.");
+      refuse(head + "transformed nodes are not supported; write nodes in their final position.");
     if (const std::string system = in_capitals(keyword["SYSTEM"]); name == "NODE" && !system.empty() && system != "R")
       refuse(head + "SYSTEM=" + system + ": cylindrical and spherical coordinates are not read; give x, y, z.");
     if (name == "NSET" && keyword.has("ELSET"))

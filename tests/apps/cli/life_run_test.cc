@@ -40,8 +40,7 @@ TEST(LifeRun, TheLastStrokeCountsOnceAndIsComparedWithTheOneBefore)
 {
   const Bar    bar("life_stroke");
   const Answer answer = bar.life("run = { end = '3 s' }\noutput.from = 'last period'\nlife.period = '4 s'\n");
-  expect_answer(answer, 0,
-                {"Life of the frame", "repetitions", "The damage of the last window and of that before differ"});
+  expect_answer(answer, 0, {"Life of the frame", "repetitions", "The damage of the last two windows differs"});
   EXPECT_NEAR(bar.number({"life", "damage"}), damage, slow * damage);
   EXPECT_NEAR(bar.number({"life", "hours"}), 4. / 3600. / damage, slow * 4. / 3600. / damage);
   EXPECT_LT(bar.number({"life", "stroke_change"}), slow);
@@ -74,7 +73,7 @@ TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
   refused("[[life.weld]]\nsurfaces = ['wall', 'tip']\n", {"matches no point of the skin"});
   refused("[[life.weld]]\nsurfaces = ['tp']\n", {"there is no [frame.surface.tp]", "did you mean"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nreduction.modes = 4\n");
-  refused("[[life.block]]\nscene = 'other.toml'\n", {"has another frame", "4 modes", "8 modes"});
+  refused("[[life.block]]\nscene = 'other.toml'\n", {"has a different frame", "4 modes", "8 modes"});
 }
 
 /// Three quarters of a period are one rise and fall; the stress does not return to where it began.

@@ -239,8 +239,9 @@ TEST(DampingThatIsWanted, IsRefusedWithTheReasonWhereTheFrameCannotGiveIt)
   const auto   ask = [&](const std::string &wanted)
   { return gestell("modes " + scene("cam_follower.toml") + folder.option() + "--damping-for " + wanted); };
   expect_answer(ask("1=0.02"), 0, {"frame.damping.ratio = 0.0237", "mode 1 of the coupled machine"});
-  expect_answer(ask("1=0.0001"), 2, {"--damping-for 1=0.0001", "0.0253 % already", "a negative ratio would be needed"});
-  expect_answer(ask("2=0.5"), 2, {"even a ratio of 0.999", "the frame takes too little part in it"});
+  expect_answer(ask("1=0.0001"), 2,
+                {"--damping-for 1=0.0001", "0.0253 % without damping", "would have to be negative"});
+  expect_answer(ask("2=0.5"), 2, {"even a ratio of 0.999", "the frame contributes too little to this mode"});
   expect_answer(ask("9=0.1"), 2, {"mode 9 does not exist; the machine has 2 modes"});
   expect_answer(ask("1"), 2, {"--damping-for 1: needs the number of a mode", "such as 3=0.02"});
 }

@@ -303,7 +303,7 @@ TEST(ModesAlong, WithoutEquilibriumThePositionIsUndeformedAndThisIsReported)
     EXPECT_EQ(at.gap, "");
     EXPECT_EQ(at.configuration, coupling::Configuration::undeformed);
   }
-  expect_words(apps::along_warnings(result).front(), "3 positions are linearised undeformed");
+  expect_words(apps::along_warnings(result).front(), "3 positions are linearised in the undeformed configuration");
   expect_words(apps::along_warnings(result).front(), "load.uz");
 }
 

@@ -73,7 +73,7 @@ TEST(Fmu, RefusesDamagedResources)
     EXPECT_FALSE(instance.alive());
     EXPECT_THAT(instance.last_message(), testing::HasSubstr(part));
   };
-  refused(FmuInstance(fmu, "one", "{other}"), "they are of different FMUs");
+  refused(FmuInstance(fmu, "one", "{other}"), "they belong to different FMUs");
   refused(FmuInstance(fmu, "one", "", "file:///nowhere"), "there is no scene.toml in /nowhere");
   refused(FmuInstance(fmu, "one", "", "https://example.org/x"), "only file:// can be read");
   const std::string text = read(resource / "scene.toml");

@@ -68,7 +68,7 @@ TEST_F(ImportedFrame, RefusesFilesThatDoNotBelongTogether)
   folder.write("short.dof", tests::dof_text({held.rows.begin(), held.rows.end() - 1}));
   const std::string both = "mass = 'M'\nstiffness = 'K'\n";
   refused(both + "rows = 'short.dof'\n", {"names 23 rows", "24 x 24"});
-  refused("mass = 'M.pch'\nstiffness = 'K'\n", {"does not name nodes and directions of its rows"});
+  refused("mass = 'M.pch'\nstiffness = 'K'\n", {"identifies its rows in a different way"});
   refused(both + "file_units = { length = '1 mm' }\n", {"displacements", "rows ="},
           "[frame.interface.top]\nrows = { ux = 1 }\n");
   refused(both + "rows = 'a.dof'\nfile_units = { length = '-1 mm' }\n", {"length"});

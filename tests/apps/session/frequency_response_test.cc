@@ -392,7 +392,7 @@ TEST(FrequencyResponse, WarnsOfADepartureFromAnUnstablePosition)
 {
   const auto reported = told_of_stability(spring_damper("800", "0") + formula_force("1000 N/m * u"));
   ASSERT_EQ(reported.size(), 1u);
-  EXPECT_THAT(reported[0], ::testing::HasSubstr("a non-oscillating motion that grows at 10 1/s"));
+  EXPECT_THAT(reported[0], ::testing::HasSubstr("a non-oscillatory mode that grows at 10 1/s"));
 }
 
 // --- what cannot be answered is told

@@ -129,7 +129,7 @@ TEST(Stages, NeedNamesAndSignalsThatThereAre)
 {
   const auto refused = [](const std::string &stages)
   { return refusal([&] { apps::read_scene(shipped("crane_minimal.toml"), {"output.stages=" + stages}); }); };
-  EXPECT_THAT(refused("{borders=[\"limiter\"], names=[\"a\"]}"), ::testing::HasSubstr("1 border part the run into 2"));
+  EXPECT_THAT(refused("{borders=[\"limiter\"], names=[\"a\"]}"), ::testing::HasSubstr("1 border for 2"));
   EXPECT_THAT(refused("{borders=[\"limiter\"], ringing=[\"q9\"]}"), ::testing::HasSubstr("no signal 'q9'"));
   EXPECT_THAT(refused("{borders=[]}"), ::testing::HasSubstr("needs at least one string"));
 }

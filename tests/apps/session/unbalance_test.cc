@@ -232,7 +232,7 @@ TEST(Unbalance, WhatCannotBeIsReportedWithItsRemedy)
   EXPECT_THAT(complaint({{"unbalance_phase", "1"}}), HasSubstr("has 'unbalance_phase' but no 'unbalance'"));
   EXPECT_THAT(complaint({{"unbalance", "-1 g m"}}), HasSubstr("unbalance"));
   EXPECT_THAT(complaint({{"unbalance", "2 kg"}}), HasSubstr("2.4 g m"));
-  EXPECT_THAT(complaint({{"unbalance", "0.1"}, {"mass", "2"}}), HasSubstr("off its axis"));
+  EXPECT_THAT(complaint({{"unbalance", "0.1"}, {"mass", "2"}}), HasSubstr("m from the axis"));
 }
 
 TEST(Unbalance, GearedToAnotherRotor_ItMovesAsOneRotorOfBothInertias)

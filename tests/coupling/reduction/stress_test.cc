@@ -106,14 +106,14 @@ TEST(ReducedStress, OfStaticLoadsIsThatOfTheFullFrameWithAnyNumberOfModes)
       EXPECT_LT(stress_error(reduced_static_stress(small, VectorXd::Zero(6), g),
                              full_static_stress(frame, VectorXd::Zero(6), g)),
                 1e-5)
-          << modes << " modes, weight: what the modes leave out is added";
+          << modes << " modes, weight: the part of the omitted modes is added";
     }
 }
 
-TEST(ReducedStress, OfAVibrationErrsAsTheModesLeftOutAre)
+TEST(ReducedStress, OfAVibrationHasTheErrorOfTheOmittedModes)
 {
-  // A mode of fixed-interface frequency omega_j that is left out lacks the share omega^2 / omega_j^2 of what inertia
-  // asks of it.  Many are left out, and short waves stress more than they move: a few times the first share.
+  // A mode of fixed-interface frequency omega_j that is omitted lacks the share omega^2 / omega_j^2 of the
+  // inertia load.  Many are omitted, and short waves stress more than they move: a few times the first share.
   const auto   frame = column();
   const double omega = 2. * M_PI * 300.;
   const auto   q1    = frame.interface_coordinates();

@@ -158,7 +158,7 @@ TEST(FlexibleFaces, AreRefusedWhereTheyCannotMoveAlike)
   const auto joint = weld("middle", {"first", "front"}, {"second", "rear"});
   auto       other = halves(3);
   make_flexible(other[1], "rear", 2);
-  EXPECT_NE(refusal_of_faces(other, joint).find("give both coupling = \"flexible\" of one 'degree'"),
+  EXPECT_NE(refusal_of_faces(other, joint).find("give both coupling = \"flexible\" with the same 'degree'"),
             std::string::npos);
 
   auto tilted           = halves(3);

@@ -262,7 +262,7 @@ TEST(SectionForces, WithAFirstDirectionAlongTheNormalAreRefused)
       [&] {
         fem::discretise(brick_mesh({4, 1, 1}, {length, width, height}), specification);
       },
-      "first direction is along the normal");
+      "first direction is parallel to the normal");
 }
 
 } // namespace

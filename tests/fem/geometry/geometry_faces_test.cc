@@ -130,9 +130,10 @@ TEST(Selection, RefusesANumberOfTwoMeanings)
   const auto taken                = [&](double at, int n) {
     return select_faces(faces, cylinder({1., 0., 0.}, {at, 1., 2.}, 0.12, n), 1.);
   };
-  gestell::tests::expect_refusal([&] { taken(0.05, 2); },
-                                 "faces = 2 may mean the 2 faces at 'through', which make 1 piece, or 2 pieces "
-                                 "of 4 faces; write faces = 1 for the former, faces = 4 for the latter");
+  gestell::tests::expect_refusal(
+      [&] { taken(0.05, 2); },
+      "faces = 2 is ambiguous: it may be the 2 faces at 'through', which form 1 piece, or 2 pieces "
+      "of 4 faces; write faces = 1 for the former, faces = 4 for the latter");
   EXPECT_EQ(taken(0.05, 1), (std::vector<int>{4, 5}));
   EXPECT_EQ(taken(0.05, 4), (std::vector<int>{4, 5, 7, 8}));
   EXPECT_EQ(taken(0.5, 2), (std::vector<int>{4, 5, 7, 8})); // no face there: the pieces are meant

@@ -337,7 +337,7 @@ TEST(InpMesh, WhoseKeywordsChangeItsMeaningIsRefusedWithTheWayOut)
   EXPECT_THAT(inp_refusal("*SYSTEM\n1, 0, 0, 1, 1, 0\n" + cube()),
               AllOf(HasSubstr("mesh.inp:2"), HasSubstr("*SYSTEM")));
   EXPECT_THAT(inp_refusal(cube() + "*IMPERFECTION, FILE=old\n1, 0.1\n"),
-              HasSubstr("give them in their final position"));
+              HasSubstr("write nodes in their final position"));
   EXPECT_THAT(inp_refusal(cube() + "*NSET, NSET=B, ELSET=BLOCK\n"), HasSubstr("list the nodes"));
   EXPECT_THAT(inp_refusal(cube() + "*SURFACE, NAME=B, COMBINE=UNION\nC, D\n"), HasSubstr("list the sides"));
   // A system without axes is that of the whole, R its coordinates.

@@ -62,12 +62,13 @@ const std::vector<Key> &mesh_keys()
           .into(&Mesh::plates, {fem::Plates::tetrahedra, fem::Plates::swept}),
       key::plain("layers", Key::Form::whole, "smallest number of elements through a swept plate")
           .by_default(&Mesh::layers),
-      key::truth("curved", false,
-                 "curved sides of tetrahedra, which follow bores, fillets and other curved faces: the shape error "
-                 "falls with the fourth power of the element size, that of straight sides with the second. Sides that "
-                 "would fold an element are straightened, with a note. Quadratic tetrahedral meshes from files keep "
-                 "their sides. Hexahedra have straight edges: `true` is an error, and a note gives the distance of the "
-                 "mid-side nodes of quadratic ones from these edges")
+      key::truth(
+          "curved", false,
+          "curved sides of tetrahedra, which follow bores, fillets and other curved faces: the shape error "
+          "falls with the fourth power of the element size, that of straight sides with the second. Sides that "
+          "would fold an element are straightened, and a note is printed. Quadratic tetrahedral meshes from files keep "
+          "their sides. Hexahedra have straight edges: `true` is an error, and a note gives the distance of the "
+          "mid-side nodes of quadratic ones from these edges")
           .into(&Mesh::curved)};
   return keys;
 }
@@ -75,7 +76,7 @@ const std::vector<Key> &mesh_keys()
 const std::vector<Key> &prestress_keys()
 {
   static const std::vector<Key> keys = {
-      key::truth("gravity", false, "weight of the frame and its masses, by `gravity` of the scene"),
+      key::truth("gravity", false, "include the weight of the frame and its masses (`gravity` of the scene)"),
       key::composed(
           "loads", Key::Form::tables, kind::number,
           {one_surface_key(), surfaces_key("loaded surfaces"),
@@ -84,7 +85,8 @@ const std::vector<Key> &prestress_keys()
           "static loads on surfaces, `[{ surface = \"table\", force = [0, 0, \"-500 kN\"] }]`; they keep their "
           "direction")
           .by_default("none"),
-      key::truth("tie_rods", false, "forces of the tie rods, `prestress` of the joints, in a frame of parts"),
+      key::truth("tie_rods", false,
+                 "include the forces of the tie rods (`prestress` of the joints), in a frame of parts"),
       key::number("factor", kind::number, "factor of these loads").by_default(1.)};
   return keys;
 }
@@ -105,7 +107,7 @@ const std::vector<Key> &frame_keys()
           .also({Key::Form::text})
           .by_default("none"),
       key::map("dimensions", kind::length, {},
-               "new values of lengths and numbers that a script (`.geo`) assigns, `{ web_plate = \"70 mm\" }` for its "
+               "new values of variables of a script (`.geo`): `{ web_plate = \"70 mm\" }` replaces the value of its "
                "first line `web_plate = ...;`. A [study](../study.md) may vary them")
           .by_default("those of the script"),
       key::map("mesh", kind::length, mesh_keys(),
@@ -118,7 +120,7 @@ const std::vector<Key> &frame_keys()
       material_key().by_default("`\"steel\"`"),
       key::plain(
           "materials", Key::Form::map,
-          "materials of single solids by name or pattern, of which the last match counts: `{ \"crown\" = \"cast "
+          "materials of single solids by name or pattern; the last match applies: `{ \"crown\" = \"cast "
           "iron\", \"column *\" = \"steel\" }`; all other solids have `material`. `gestell mesh` lists the names")
           .by_default("none"),
       key::table("damping", damping_keys(),
@@ -225,7 +227,7 @@ const std::vector<Key> &interface_keys()
       key::vector("position", kind::length, "position of the node; required for `\"point\"` and `\"node\"`")
           .by_default("centroid")
           .into(&fem::InterfaceSpecification::position),
-      key::number("radius", kind::length, "radius around a `\"point\"` within which triangles count")
+      key::number("radius", kind::length, "radius around a `\"point\"` within which triangles are averaged")
           .from_zero()
           .by_default("triangles at the nearest vertex"),
       key::plain("degree", Key::Form::whole,
@@ -252,7 +254,8 @@ const std::vector<Key> &stress_point_keys()
   static const std::vector<Key> keys = {
       key::vector("at", kind::length,
                   "point on the surface; the nearest one of the mesh is used and its distance printed"),
-      key::direction("along", "direction n of the normal stress `normal`, n . sigma n, such as across a weld")
+      key::direction("along",
+                     "direction n of the signal `normal`, the normal stress n . sigma n, such as across a weld")
           .by_default("no `normal`")};
   return keys;
 }

@@ -155,8 +155,8 @@ void join_rows(const SceneTable &frame, const std::string &key, const std::vecto
   if (!more.empty())
     frame.warn(key, count_text(more.size(), "row") +
                         " of it are not in the stiffness, so they are unconstrained: " + text_of_some(more) +
-                        "; right for interfaces that hold the frame statically determinate, else "
-                        "the files are of different models");
+                        "; this is correct if the interfaces support the frame statically determinately, otherwise the "
+                        "files belong to different models");
   for (const RowLabel &row : missing_rows(more, rows))
     rows.push_back(row);
 }
@@ -173,9 +173,9 @@ void require_named_alike(const SceneTable &frame, const LabelledMatrix &M, const
   if (is_named(M) == is_named(C) && (!B || is_named(*B) == is_named(C)))
     return;
   const std::string key = is_named(M) != is_named(C) ? "mass" : "damping";
-  throw frame.error(
-      key, "does not name nodes and directions of its rows in the same way as the stiffness: one of the files names "
-           "nodes and directions, the other counts rows; 'rows' names those of files that count (.dof, .mapping)");
+  throw frame.error(key,
+                    "identifies its rows in a different way from the stiffness: one file gives nodes and directions, "
+                    "the other only row numbers; set 'rows' to the file that defines the row numbers (.dof, .mapping)");
 }
 
 Eigen::VectorXd scales(const std::vector<RowLabel> &rows, const FileUnits &units)

@@ -50,7 +50,7 @@ const std::vector<Key> &matrix_frame_keys()
                   "`translations` of all rows are known, the mass is reported as unknown, and effective masses include "
                   "only the rows of interfaces and nodes")
           .above_zero()
-          .by_default("by `mass` and `translations`"),
+          .by_default("from `mass` and `translations`"),
       key::table("matrix_names", matrix_name_keys(),
                  "names of matrices in a file with several, such as that of Nastran")
           .by_default("by their usual names"),
@@ -62,8 +62,8 @@ const std::vector<Key> &matrix_frame_keys()
                  "scene are in SI units")
           .by_default("kg, m, s, N"),
       key::plain("nodes", Key::Form::file,
-                 "table of nodes (CSV) with interfaces and positions, also for pictures; if rows are known, also a "
-                 "model file of another program (GRID, *NODE, NBLOCK)")
+                 "table of nodes (CSV) with interfaces and positions, also for pictures; a model file of another "
+                 "program (GRID, *NODE, NBLOCK) is also accepted if the nodes of the rows are known")
           .by_default("GRID cards in the files of the matrices"),
       key::plain("triangles", Key::Form::file,
                  "table with three or four nodes per line (numbered from 1 in the order of `nodes`), for pictures")
@@ -71,7 +71,7 @@ const std::vector<Key> &matrix_frame_keys()
       key::plain("node_displacements", Key::Form::file,
                  "3 N x n: rows that give the displacements x, y, z of the N nodes from q, if these are not rows of q "
                  "themselves")
-          .by_default("by the rows of `nodes`"),
+          .by_default("from the rows of `nodes`"),
       key::table("interface", {}, "`[frame.interface.NAME]`, at least one, or a named node").by_default(""),
       key::table("support", {}, "`[frame.support.NAME]`").by_default(""),
       key::table("cut", {}, "`[frame.cut.NAME]`").by_default(""),
@@ -85,7 +85,7 @@ const std::vector<Key> &file_unit_keys()
       key::number("length", kind::length, "`\"1 mm\"`").above_zero().by_default(1.),
       key::number("mass", kind::mass, "`\"1 t\"`").above_zero().by_default(1.),
       key::number("time", kind::time, "`\"1 ms\"`").above_zero().by_default(1.),
-      key::number("force", kind::force, "unit of force, if it does not follow from the others: N with kg and mm")
+      key::number("force", kind::force, "unit of force, if it is not consistent with the others: N with kg and mm")
           .above_zero()
           .by_default("mass length / time^2")};
   return keys;

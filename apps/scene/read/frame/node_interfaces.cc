@@ -32,10 +32,8 @@ public:
   void refuse(const std::string &marker, const std::string &what) const
   {
     if (is_node(marker))
-      throw std::invalid_argument(place_ + ": '" + marker +
-                                  "' is a single node of the frame's mesh, which has no "
-                                  "rotation, but " +
-                                  what + "; give the interface coupling = \"average\", or act on its displacements");
+      throw std::invalid_argument(place_ + ": '" + marker + "' is a single mesh node without rotations, but " + what +
+                                  "; set coupling = \"average\" for the interface, or use displacements only");
   }
 
   void look_at(const PlaceRequest &point) const
@@ -48,7 +46,7 @@ public:
       squared += std::pow((*point.at)[d] - node->second[d], 2);
     constexpr double same_place = 1e-6; // [m] files have positions to micrometres
     if (squared > same_place * same_place)
-      refuse(point.marker, "a point next to it would also move with its rotation: remove 'at', or set it to the "
+      refuse(point.marker, "a point at a distance from it also moves with its rotation: remove 'at', or set it to the "
                            "'position' of the interface");
   }
 
@@ -180,7 +178,7 @@ void refuse_rotations_of_nodes(const Scene &scene)
   {
     search.look_at(place_of(mass.name));
     if (mass.inertia != Vector3{} || mass.offset != Vector3{})
-      search.refuse(mass.marker, "an inertia or an offset needs one");
+      search.refuse(mass.marker, "an inertia or an offset needs rotations");
   }
   look_at_signals(scene, search);
 }

@@ -92,11 +92,11 @@ std::vector<fem::NamedRatio> read_named(const SceneTable &row)
   if (file)
   {
     if (row.has("ratio"))
-      throw row.error("ratio", "is read from the file; leave it out here");
+      throw row.error("ratio", "is read from the file; remove it here");
     const std::string name = row.file("file"), ending = std::filesystem::path(name).extension().string();
     auto              modes = ending == ".csv" ? measured_in_table(name) : measured_in_universal_file(name);
     if (modes.empty())
-      throw row.error("file", "holds no modes; give it a row for each");
+      throw row.error("file", "contains no modes; add a row for each mode");
     std::for_each(modes.begin(), modes.end(), check_measured);
     return modes;
   }
@@ -199,8 +199,8 @@ void read_rayleigh(const SceneTable &damping, FrameDamping &result)
   result.beta          = 2. * (zeta[1] * omega[1] - zeta[0] * omega[0]) / squares;
   result.alpha         = 2. * omega[0] * omega[1] * (zeta[0] * omega[1] - zeta[1] * omega[0]) / squares;
   if (result.alpha < 0. || result.beta < 0.)
-    throw damping.error("rayleigh", "would amplify some vibrations: the two ratios differ by a larger factor than "
-                                    "their frequencies; use more similar ratios");
+    throw damping.error("rayleigh", "would amplify some vibrations, because the two damping ratios differ by a larger "
+                                    "factor than their frequencies; use damping ratios closer to each other");
 }
 
 } // namespace
@@ -213,21 +213,21 @@ const std::vector<Key> &damping_keys()
                   "second and all higher modes; `[[\"20 Hz\", 0.01], [\"90 Hz\", 0.02]]`: over frequency, linear "
                   "between the rows, constant beyond")
           .also({Key::Form::numbers, Key::Form::matrix})
-          .by_default("`rayleigh`, or zero for modes that `modes` does not name"),
+          .by_default("`rayleigh`, or zero for modes not listed in `modes`"),
       key::composed(
           "modes", Key::Form::tables, kind::number,
           {key::plain("mode", Key::Form::whole, "number of an elastic mode of the supported frame, from 1")
                .by_default(""),
-           key::number("from", kind::frequency, "in place of it, lower end of an interval of frequencies")
-               .by_default(""),
+           key::number("from", kind::frequency, "lower end of a frequency interval, instead of `mode`").by_default(""),
            key::number("to", kind::frequency, "its upper end").by_default(""),
            key::plain("file", Key::Form::file,
-                      "in place of both, measured modes: CSV with the columns `frequency [Hz]`, `ratio` and perhaps "
+                      "measured modes, instead of `mode` and `from`: CSV with the columns `frequency [Hz]`, `ratio` "
+                      "and perhaps "
                       "`mode`, or a universal file with data sets 55")
                .by_default(""),
            key::number("ratio", kind::number, "damping ratio").by_default("of the file")},
-          "damping ratios of single modes of the supported frame, in place of `ratio`, which the others keep; exact in "
-          "`gestell modes`. A number goes before an interval. Measured modes without a number get the mode of the "
+          "damping ratios of single modes of the supported frame; all other modes have `ratio`; exact in `gestell "
+          "modes`. `mode` has priority over an interval. Measured modes without a number get the mode of the "
           "frame "
           "with the most similar shape (MAC) within 30 % of their frequency, or without shapes of the nearest "
           "frequency "

@@ -19,8 +19,8 @@ void refuse_flexible(const fem::FrameSpecification &frame)
   for (const fem::InterfaceSpecification &interface : frame.interfaces)
     if (interface.coupling == fem::InterfaceCoupling::flexible)
       throw std::invalid_argument(interface.place +
-                                  ": coupling = \"flexible\" is for faces in a weld or contact of parts; for a "
-                                  "flexible surface on which a mechanism acts use coupling = \"average\"");
+                                  ": coupling = \"flexible\" applies only to faces in a weld or contact of parts; for "
+                                  "a flexible surface that carries a mechanism use coupling = \"average\"");
 }
 
 } // namespace

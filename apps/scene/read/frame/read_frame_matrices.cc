@@ -35,7 +35,7 @@ void read_rows(const SceneTable &table, Eigen::Index n, fem::Interface &interfac
     const auto found = std::find(motion_names.begin(), motion_names.end(), key.substr(minus));
     if (found == motion_names.end())
       throw rows.error(key, "is not a DOF; valid: " + listed(motion_names) +
-                                ", each with '-' if the row is positive against the axis");
+                                ", with '-' in front if the row is positive in the negative direction of the axis");
     const int motion = found - motion_names.begin(), row = rows.integer(key, 0);
     if (row < 1 || row > n)
       throw rows.error(key,
@@ -73,7 +73,7 @@ const TableNode &node_of_number(const SceneTable &table, const FrameNodes &nodes
     throw table.error(
         "node",
         "node " + std::to_string(number) + " has no row in the matrices" +
-            (nodes.all.empty() ? "" : "; node " + std::to_string(nodes.all.front().number) + " has, for example"));
+            (nodes.all.empty() ? "" : "; the first node with rows is " + std::to_string(nodes.all.front().number)));
   return *found;
 }
 

@@ -45,7 +45,7 @@ const std::vector<Key> &parts_frame_keys()
           .by_default("none"),
       key::choice("modes", {"by tolerance", "all"}, true,
                   "modes of the joined parts with the interfaces of the mechanism fixed: as many as `[reduction]` "
-                  "requires, or `\"all\"` modes of the reduced parts, which changes only the coordinates")};
+                  "requires, or `\"all\"` modes of the reduced parts (no truncation)")};
   return keys;
 }
 
@@ -53,7 +53,7 @@ const std::vector<Key> &frame_part_keys()
 {
   static const std::vector<Key> keys = joined(
       {without_those_of_the_whole(frame_keys()),
-       {key::named("same_as", "an equal part in another position, given only with `placement`. Equal parts are reduced "
+       {key::named("same_as", "part of which this one is a copy; only `placement` may differ. Equal parts are reduced "
                               "once, even without this key")
             .by_default("`cad`"),
         key::table("placement",
@@ -131,7 +131,8 @@ void refuse_beside_same_as(const SceneTable &part)
 {
   for (const std::string &key : part.keys())
     if (key != "same_as" && key != "placement")
-      throw part.error(key, "is that of '" + part.text("same_as") + "'; with 'same_as' only 'placement' is allowed");
+      throw part.error(key, "is taken from the part '" + part.text("same_as") +
+                                "'; with 'same_as' only 'placement' is allowed");
 }
 
 /// One that is the same as another has no geometry yet.

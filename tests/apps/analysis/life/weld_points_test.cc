@@ -101,7 +101,7 @@ TEST(WeldPoints, AWeldThatMatchesNothingIsRefused)
   expect_refusal([&] { corner.points(apart); },
                  "scene.toml:7: life.weld[1]: the weld 'seam' matches no point of the skin "
                  "('floor' has 121 points, 'far' has 0 points); name two surfaces that meet");
-  expect_refusal([&] { corner.points(line(2., {0.4, 1.})); }, "the first reaches 2000 mm beyond the line");
+  expect_refusal([&] { corner.points(line(2., {0.4, 1.})); }, "the first of which extends 2000 mm beyond the line");
 }
 
 } // namespace
