@@ -179,7 +179,7 @@ FMI2_SHOWN fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind ki
                   [&](FmuComponent &own)
                   {
                     if (kind != fmi2LastSuccessfulTime)
-                      throw std::invalid_argument("only the last successful time is a real");
+                      throw std::invalid_argument("only fmi2LastSuccessfulTime is a real");
                     *value = own.model->time();
                     return fmi2OK;
                   });
@@ -191,7 +191,7 @@ FMI2_SHOWN fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind
                   [&](FmuComponent &own)
                   {
                     if (kind != fmi2Terminated)
-                      throw std::invalid_argument("only whether it has terminated is a boolean");
+                      throw std::invalid_argument("only fmi2Terminated is a boolean");
                     *value = !own.model->ended().empty();
                     return fmi2OK;
                   });

@@ -106,7 +106,7 @@ void add_rest(Tables &tables)
   add("life", "[life]", "Fatigue of the frame under the motion of the run.", life_keys());
   add("life.curve", "curve of [life]", "S-N curve.", curve_keys());
   add("life.weld", "[[life.weld]]", "Weld, or a part of the skin judged by its own stress.", weld_keys());
-  add("life.block", "[[life.block]]", "Further load of the collective.", block_keys());
+  add("life.block", "[[life.block]]", "Further run of the load spectrum.", block_keys());
 }
 
 Tables make_tables()

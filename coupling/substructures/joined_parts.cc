@@ -262,8 +262,8 @@ void tell_errors(ReducedFrame &whole, const VectorXd &omega, const VectorXd &err
     worst = std::max(worst, errors[j]);
     known = omega[j] / two_pi;
   }
-  whole.statements.push_back("parts: their reduction makes frequencies up to " + rounded(known) + " Hz too high by " +
-                             percent(worst) + " at most (first-order estimate)");
+  whole.statements.push_back("parts: due to their reduction, frequencies up to " + rounded(known) +
+                             " Hz are too high by " + percent(worst) + " at most (first-order estimate)");
 }
 
 /// A with zeros at further entries of `other`: coordinates that only mass couples stay together, as modes and

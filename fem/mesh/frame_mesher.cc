@@ -170,7 +170,7 @@ void judge_features(MeshedModel &result, const MeshOptions &options)
     result.model.notes.push_back(
         std::to_string(features.n_short_edges) + " edges and " + std::to_string(features.n_narrow_faces) +
         " faces are much smaller than elements (below " + text(1e3 * limit) + " mm; " + result.smallest +
-        ") and force small elements there: mesh.defeature removes features below a size where possible");
+        "), so the elements there are small: mesh.defeature removes features below a size where possible");
 }
 
 /// Cell size from the mean thickness 2 V / A.

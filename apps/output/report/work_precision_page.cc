@@ -101,11 +101,12 @@ std::string model_section(const WorkPrecision &chart, int m)
                      text_of(10. * model.reference_error) + " are not resolved.</p>\n";
   if (std::isfinite(model.truncation))
     html += "<p>Error due to truncated modes, relative to the largest model: " + text_of(model.truncation) + ".</p>\n";
-  html += "<h3>Fastest method for a required error</h3>\n" + choices(chart, m) +
-          "<p class=\"soft\">CPU times are interpolated between two runs of a method. All finer runs of the method are "
-          "below the error.</p>\n<h3>Pareto front</h3>\n<p class=\"soft\">Runs for which no other run is both faster "
-          "and more accurate.</p>\n" +
-          front(chart, m) + "<noscript>" + work_precision_svg(chart, m, WorkMeasure::cpu) + "</noscript></section>\n";
+  html +=
+      "<h3>Fastest method for a required error</h3>\n" + choices(chart, m) +
+      "<p class=\"soft\">CPU times are interpolated between two runs of a method. All finer runs of the method have "
+      "smaller errors.</p>\n<h3>Pareto front</h3>\n<p class=\"soft\">Runs for which no other run is both faster "
+      "and more accurate.</p>\n" +
+      front(chart, m) + "<noscript>" + work_precision_svg(chart, m, WorkMeasure::cpu) + "</noscript></section>\n";
   return html;
 }
 

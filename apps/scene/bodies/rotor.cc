@@ -71,8 +71,9 @@ BodyType rotor_type()
                    "mass, which acts on the carrier; with `cad` it is distributed uniformly and replaces `material`")
                    .from_zero()
                    .by_default(&BodyRequest::mass),
-               key::vector("position", kind::length,
-                           "position in pictures, at zero displacement; on the ground the axis passes through it")
+               key::vector(
+                   "position", kind::length,
+                   "position in pictures, at zero displacement; for a rotor on the ground also a point of the axis")
                    .by_default("[0, 0, 0]; with `cad` the centre of mass")
                    .into(&BodyRequest::position),
                drawn_radius("a disc")},

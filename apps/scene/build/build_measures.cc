@@ -55,7 +55,7 @@ std::string motions_left(const coupling::Marker &marker, bool rotation)
 
 std::invalid_argument no_motion(const MotionTerm &term, const coupling::MachineModel &machine)
 {
-  return std::invalid_argument("acts on a DOF that the machine does not have: \"" + term.marker + "\" does not " +
+  return std::invalid_argument("acts on a DOF that does not exist: \"" + term.marker + "\" does not " +
                                (term.rotation ? "rotate about " : "move along ") + triple(term.axis) +
                                ", nor does the other body" + motions_left(machine.marker(term.marker), term.rotation));
 }

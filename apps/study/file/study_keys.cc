@@ -130,7 +130,7 @@ const std::vector<Key> &study_optimise_keys()
       key::table("goals", {}, "`[optimise.goals.OUTPUT]`: their weighted sum is minimised").by_default(""),
       key::table("limits", {}, "`[optimise.limits.OUTPUT]`").by_default("none"),
       key::choice("method", {"gradient", "derivative-free"}, true,
-                  "method: sequential quadratic programming, or quadratic or linear models through earlier points"),
+                  "method: sequential quadratic programming, or quadratic or linear interpolation of earlier points"),
       key::plain("starts", Key::Form::whole, "number of searches; the first starts at the midpoints of all ranges")
           .by_default("5"),
       key::plain("seed", Key::Form::whole, "seed of the other starting points").by_default("1"),

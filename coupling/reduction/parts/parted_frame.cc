@@ -260,7 +260,8 @@ std::string statement_of(const DenseModes &modes, const Joined &joined, const Re
     known = modes.omega[j] / two_pi;
   }
   std::string text = "parts: " + std::to_string(n_parts) + " parts with " + std::to_string(interface.size()) +
-                     " interface DOFs; their reduction makes frequencies up to " + rounded(known) + " Hz too high by ";
+                     " interface DOFs; due to their reduction, frequencies up to " + rounded(known) +
+                     " Hz are too high by ";
   return text + (std::isfinite(worst) ? percent(worst, 2) + " at most (first-order bound)"
                                       : "an unknown amount: use [reduction] frequency to retain more modes of parts");
 }

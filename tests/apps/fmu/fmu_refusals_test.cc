@@ -98,7 +98,7 @@ TEST(FmuExport, RefusesOddInputWithTheWayOut)
   refused(scene("press_minimal.toml") + " --set start.rule='periodic'",
           {"an FMU does not search for periodic solutions"});
   refused(scene("press_minimal.toml") + " --set 'element.rod.length=60 mm'", {"element.rod"});
-  refused(scene("press_minimal.toml") + " --inputs frame.crown.rx", {"acts on a DOF that the machine does not have"});
+  refused(scene("press_minimal.toml") + " --inputs frame.crown.rx", {"acts on a DOF that does not exist"});
   refused(scene("press_minimal.toml") + " --inputs F=slide,F=crank", {"there is an input 'F' already"});
   refused(scene("press_minimal.toml") + " -o somewhere", {"use one of the two options"});
   const std::string file = folder.file("file", "");
