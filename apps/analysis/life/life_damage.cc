@@ -371,8 +371,9 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
   constexpr double steady = 0.05; // of the damage: 1.6 % of the range with slope 3
   if (found.stroke_change > steady)
     warnings.push_back("life: the run ends before the steady state: the damage of the last two windows differs by " +
-                       percent(found.stroke_change, 2) + "; extend it (run.end = " + short_text(scene.run.options.end) +
-                       " s), or start on the periodic solution (start.rule = \"periodic\")");
+                       percent(found.stroke_change, 2) + "; increase run.end, now " +
+                       short_text(scene.run.options.end) +
+                       " s, or start on the periodic solution (start.rule = \"periodic\")");
   if (found.closing > steady)
     warnings.push_back("life: the stress at the end of the load differs from that at its start by " +
                        percent(found.closing, 2) +

@@ -210,7 +210,7 @@ WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem:
   if (chosen.empty())
     throw std::invalid_argument(
         weld.place + ": the weld '" + weld.name + "' matches no point of the skin (" + counts + "); " +
-        (on.size() == 1        ? "name a surface with points away from its edges"
+        (on.size() == 1        ? "name a surface that is not rigid, with points away from its edges"
          : weld.thickness > 0. ? "name two surfaces that meet, the first of which extends " +
                                      short_text(1e3 * weld.distances.back() * weld.thickness) + " mm beyond the line"
                                : "name two surfaces that meet"));
