@@ -22,9 +22,11 @@ using Eigen::VectorXd;
 /// Whether A has no entries beside its diagonal, up to the rounding of modes.
 bool decouples(const MatrixXd &A)
 {
-  constexpr double rounding = 1e-10;
-  const VectorXd   scale    = A.diagonal().cwiseAbs().cwiseSqrt();
-  const MatrixXd   rest     = A - MatrixXd(A.diagonal().asDiagonal());
+  constexpr double rounding = 1e-10,
+                   least    = 1e-3; // of the largest damping: that of free and undamped modes is rounding
+  const VectorXd size       = A.diagonal().cwiseAbs();
+  const VectorXd scale      = size.cwiseMax(least * size.maxCoeff()).cwiseSqrt();
+  const MatrixXd rest       = A - MatrixXd(A.diagonal().asDiagonal());
   return (rest.array().abs() <= rounding * (scale * scale.transpose()).array()).all();
 }
 
