@@ -70,6 +70,19 @@ TEST(OwnModes, AreOtherCoordinatesOfTheSameFrame)
   EXPECT_LT((twice.C - turned.C).norm(), 1e-9 * turned.C.norm());
 }
 
+TEST(OwnModes, AreLedBackToThoseOfTheFixedInterface)
+{
+  const ReducedFrame frame  = frame_with_modal_damping();
+  ReducedFrame       turned = frame;
+  EXPECT_EQ(coupling::fixed_mode_coordinates(frame).T.size(), 0);
+  ASSERT_TRUE(coupling::turn_to_own_modes(turned));
+  const auto fixed = coupling::fixed_mode_coordinates(turned);
+  EXPECT_LT((fixed.omega - frame.omega0).cwiseAbs().maxCoeff(), 1e-8 * frame.omega0.maxCoeff());
+  EXPECT_LT((fixed.T * fixed.inverse - MatrixXd::Identity(n, n)).norm(), 1e-8);
+  const MatrixXd C = fixed.T.transpose() * turned.C * fixed.T;
+  EXPECT_LT((C - frame.C).norm(), 1e-8 * frame.C.norm());
+}
+
 TEST(OwnModes, MayBeFreeOrUndamped)
 {
   for (ReducedFrame frame : {frame_with_modal_damping(20), frame_with_modal_damping(n, true)})
