@@ -73,20 +73,25 @@ public:
     add(name, static_cast<int>(value));
   }
 
+  /// Values by their names in `name`.
+  template <typename T, typename... Others>
+  void members(const std::string &name, const char *member, const T &value, const Others &...others)
+  {
+    add(name + "." + member, value);
+    if constexpr (sizeof...(others) > 0)
+      members(name, others...);
+  }
+
   void add(const std::string &name, const fem::Material &value)
   {
     const auto &[E, nu, rho, place, called] = value;
-    add(name + ".E", E);
-    add(name + ".nu", nu);
-    add(name + ".rho", rho);
+    members(name, "E", E, "nu", nu, "rho", rho);
     add(name + ".name", called); // the frame contains it
   }
   void add(const std::string &name, const fem::SurfaceSelector::Cylinder &value)
   {
     const auto &[axis, through, radius] = value;
-    add(name + ".axis", axis);
-    add(name + ".through", through);
-    add(name + ".radius", radius);
+    members(name, "axis", axis, "through", through, "radius", radius);
   }
   void add(const std::string &name, const fem::SurfaceSelector::Plane &value)
   {
@@ -103,24 +108,15 @@ public:
   void add(const std::string &name, const fem::SurfaceSelector &value)
   {
     const auto &[cylinder, plane, box, group, tolerance, faces, place] = value;
-    add(name + ".cylinder", cylinder);
-    add(name + ".plane", plane);
-    add(name + ".box", box);
-    add(name + ".group", group);
-    add(name + ".tolerance", tolerance);
-    add(name + ".faces", faces);
+    members(name, "cylinder", cylinder, "plane", plane, "box", box, "group", group, "tolerance", tolerance, "faces",
+            faces);
   }
   void add(const std::string &name, const fem::Support &value)
   {
     const auto &[own, surfaces, kind, held, stiffness, damping, place, per_area, axes] = value;
     add(name, own);
-    add(name + ".surfaces", surfaces);
-    add(name + ".kind", kind);
-    add(name + ".held", held);
-    add(name + ".stiffness", stiffness);
-    add(name + ".damping", damping);
-    add(name + ".per_area", per_area);
-    add(name + ".axes", axes);
+    members(name, "surfaces", surfaces, "kind", kind, "held", held, "stiffness", stiffness, "damping", damping,
+            "per_area", per_area, "axes", axes);
   }
   void add(const std::string &name, const fem::ModalRatios &value)
   {
@@ -133,42 +129,27 @@ public:
   {
     const auto &[ratio, mode, from, to, points, shape, place] = value; // place: for messages
     add(name, ratio);
-    add(name + ".mode", mode);
-    add(name + ".from", from);
-    add(name + ".to", to);
-    add(name + ".points", points);
-    add(name + ".shape", Eigen::VectorXd(shape.real()));
-    add(name + ".phase", Eigen::VectorXd(shape.imag()));
+    members(name, "mode", mode, "from", from, "to", to, "points", points, "shape", Eigen::VectorXd(shape.real()),
+            "phase", Eigen::VectorXd(shape.imag()));
   }
   void add(const std::string &name, const fem::AttachedMass &value)
   {
     const auto &[own, mass, inertia, centre, interface, surfaces, coupling, place] = value;
     add(name, own);
-    add(name + ".mass", mass);
-    add(name + ".inertia", std::vector<double>(inertia.data(), inertia.data() + inertia.size()));
-    add(name + ".centre", centre);
-    add(name + ".interface", interface);
-    add(name + ".surfaces", surfaces);
-    add(name + ".coupling", coupling);
+    members(name, "mass", mass, "inertia", std::vector<double>(inertia.data(), inertia.data() + inertia.size()),
+            "centre", centre, "interface", interface, "surfaces", surfaces, "coupling", coupling);
   }
   void add(const std::string &name, const fem::InterfaceSpecification &value)
   {
     const auto &[own, surfaces, coupling, position, place, radius, degree, what] = value; // what: for messages
     add(name, own);
-    add(name + ".surfaces", surfaces);
-    add(name + ".coupling", coupling);
-    add(name + ".position", position);
-    add(name + ".radius", radius);
-    add(name + ".degree", degree);
+    members(name, "surfaces", surfaces, "coupling", coupling, "position", position, "radius", radius, "degree", degree);
   }
   void add(const std::string &name, const fem::CutSpecification &value)
   {
     const auto &[own, through, normal, place, first, about] = value;
     add(name, own);
-    add(name + ".through", through);
-    add(name + ".normal", normal);
-    add(name + ".first", first);
-    add(name + ".about", about);
+    members(name, "through", through, "normal", normal, "first", first, "about", about);
   }
   void add(const std::string &name, const fem::StressPointSpecification &value)
   {
@@ -180,33 +161,20 @@ public:
   void add(const std::string &name, const fem::SurfaceLoad &value)
   {
     const auto &[surfaces, force, pressure, place] = value;
-    add(name + ".surfaces", surfaces);
-    add(name + ".force", force);
-    add(name + ".pressure", pressure);
+    members(name, "surfaces", surfaces, "force", force, "pressure", pressure);
   }
   void add(const std::string &name, const fem::Prestress &value)
   {
     const auto &[acceleration, loads, factor, tie_rods, interface_motion, place] = value;
-    add(name + ".acceleration", acceleration);
-    add(name + ".loads", loads);
-    add(name + ".factor", factor);
-    add(name + ".tie_rods", tie_rods);
-    add(name + ".interface_motion", interface_motion);
+    members(name, "acceleration", acceleration, "loads", loads, "factor", factor, "tie_rods", tie_rods,
+            "interface_motion", interface_motion);
   }
   void add(const std::string &name, const fem::MeshOptions &value)
   {
     const auto &[size, surface_size, max_cells, gap, bodies, defeature, overlaps, curved, plates, layers, place] =
         value;
-    add(name + ".size", size);
-    add(name + ".surface", surface_size);
-    add(name + ".max_cells", max_cells);
-    add(name + ".gap", gap);
-    add(name + ".bodies", bodies);
-    add(name + ".defeature", defeature);
-    add(name + ".overlaps", overlaps);
-    add(name + ".curved", curved);
-    add(name + ".plates", plates);
-    add(name + ".layers", layers);
+    members(name, "size", size, "surface", surface_size, "max_cells", max_cells, "gap", gap, "bodies", bodies,
+            "defeature", defeature, "overlaps", overlaps, "curved", curved, "plates", plates, "layers", layers);
   }
   void add(const fem::FrameSpecification &value)
   {
@@ -254,20 +222,14 @@ public:
   {
     const auto &[own, position, coordinate, sign, face] = value; // face: of parts, whose geometry counts
     add(name, own);
-    add(name + ".position", position);
-    add(name + ".coordinate", coordinate);
-    add(name + ".sign", sign);
+    members(name, "position", position, "coordinate", coordinate, "sign", sign);
   }
   void add(const std::string &name, const fem::FrameOutput &value)
   {
     const auto &[own, unit, on_q, on_v, under_acceleration, on_a, constant] = value;
     add(name, own);
-    add(name + ".unit", unit);
-    add(name + ".on_q", on_q);
-    add(name + ".on_v", on_v);
-    add(name + ".under_acceleration", under_acceleration);
-    add(name + ".on_a", on_a);
-    add(name + ".constant", constant);
+    members(name, "unit", unit, "on_q", on_q, "on_v", on_v, "under_acceleration", under_acceleration, "on_a", on_a,
+            "constant", constant);
   }
   void add(const std::string &name, const fem::Picture &value)
   {

@@ -20,13 +20,20 @@ bool german = false;
 
 struct Dictionary
 {
-  struct Pattern
-  {
-    std::string before, after, german; ///< about the part that is kept
-  };
-  std::map<std::string, std::string> texts;
-  std::vector<Pattern>               patterns;
+  std::map<std::string, std::string>                            texts;
+  std::vector<std::pair<std::vector<std::string>, std::string>> patterns; ///< the parts about the stars
 };
+
+std::vector<std::string> about_stars(const std::string &pattern)
+{
+  std::vector<std::string> parts(1);
+  for (const char letter : pattern)
+    if (letter == '*')
+      parts.emplace_back();
+    else
+      parts.back() += letter;
+  return parts;
+}
 
 /// The lines "English<tab>German" of german.tsv.
 Dictionary read_dictionary()
@@ -39,25 +46,46 @@ Dictionary read_dictionary()
     if (tab == std::string::npos)
       continue;
     const std::string english = escape_xml(line.substr(0, tab)), other = escape_xml(line.substr(tab + 1));
-    if (const std::size_t star = english.find('*'); star != std::string::npos)
-      read.patterns.push_back({english.substr(0, star), english.substr(star + 1), other});
+    if (english.find('*') != std::string::npos)
+      read.patterns.emplace_back(about_stars(english), other);
     else
       read.texts[english] = other;
   }
   return read;
 }
 
+/// The texts at the stars, each as short as possible, the last up to the end; none if the text does not fit.
+std::vector<std::string> kept_by(const std::vector<std::string> &parts, const std::string &text)
+{
+  if (text.compare(0, parts[0].size(), parts[0]) != 0)
+    return {};
+  std::vector<std::string> kept;
+  std::size_t              at = parts[0].size();
+  for (std::size_t i = 1; i < parts.size(); ++i)
+  {
+    const bool        last = i + 1 == parts.size();
+    const std::size_t end =
+        last && text.size() >= at + parts[i].size() ? text.size() - parts[i].size() : text.find(parts[i], at);
+    if (end == std::string::npos || end == at || text.compare(end, parts[i].size(), parts[i]) != 0)
+      return {};
+    kept.push_back(text.substr(at, end - at));
+    at = end + parts[i].size();
+  }
+  return kept;
+}
+
 std::optional<std::string> of_whole(const Dictionary &words, const std::string &text)
 {
   if (const auto found = words.texts.find(text); found != words.texts.end())
     return found->second;
-  for (const auto &[before, after, other] : words.patterns)
-    if (text.size() > before.size() + after.size() && text.compare(0, before.size(), before) == 0 &&
-        text.compare(text.size() - after.size(), after.size(), after) == 0)
+  for (const auto &[parts, other] : words.patterns)
+    if (const auto kept = kept_by(parts, text); !kept.empty())
     {
-      std::string translated = other;
-      return translated.replace(translated.find('*'), 1,
-                                text.substr(before.size(), text.size() - before.size() - after.size()));
+      const std::vector<std::string> around     = about_stars(other);
+      std::string                    translated = around[0];
+      for (std::size_t i = 1; i < around.size(); ++i)
+        translated += kept.at(i - 1) + around[i];
+      return translated;
     }
   return std::nullopt;
 }
@@ -107,8 +135,8 @@ std::string in_page_language(std::string page)
 {
   if (!german)
     return page;
-  static const std::set<std::string> elements = {"h2",   "h3",     "th",   "figcaption", "summary", "a",
-                                                 "span", "strong", "text", "title"};
+  static const std::set<std::string> elements = {"h2", "h3",   "th",     "figcaption", "summary",
+                                                 "a",  "span", "strong", "text",       "title"};
   std::string                        translated;
   for (std::size_t at = 0; at < page.size();)
   {

@@ -12,8 +12,11 @@ namespace
 {
 
 /// Texts of headings, column heads, captions and the table of contents.
-std::vector<std::string> headings(const std::string &page)
+std::vector<std::string> headings(std::string page)
 {
+  const std::string end = "</script>";
+  for (auto at = page.find("<script"); at != std::string::npos; at = page.find("<script", at))
+    page.erase(at, page.find(end, at) + end.size() - at);
   static const std::regex  element("<(h2|h3|th|figcaption|a href=\"#)[^>]*>([^<]+)<");
   std::vector<std::string> found;
   for (auto it = std::sregex_iterator(page.begin(), page.end(), element); it != std::sregex_iterator(); ++it)
@@ -29,11 +32,6 @@ std::string rest(const std::string &page)
   return std::regex_replace(std::regex_replace(page, element, "$1"), member, "");
 }
 
-struct PageLanguage : ::testing::Test
-{
-  void TearDown() override { choose_page_language("en"); }
-};
-
 std::string german(const std::string &page)
 {
   choose_page_language("de");
@@ -41,6 +39,11 @@ std::string german(const std::string &page)
 }
 
 } // namespace
+
+struct PageLanguage : ::testing::Test
+{
+  void TearDown() override { choose_page_language("en"); }
+};
 
 TEST_F(PageLanguage, IsEnglishAtFirst)
 {

@@ -101,7 +101,7 @@ TEST(PartsScene, RefusesWhatDoesNotFit)
       {middle + "[frame.joint.outer]\nbetween = ['arm.end', 'tip.raer']\n", "part 'tip' has no interface 'raer'"},
       {middle + "[frame.joint.outer]\nbetween = ['arm.end']\n", "needs two interfaces"},
       {middle + "[frame.joint.outer]\nbetween = ['arm.end', 'tip']\n", "got 'tip'; needs PART.INTERFACE"},
-      {middle + outer + "[frame.joint.more]\nbetween = ['arm.end', 'tip.end']\n", "is joined by 'outer' already"},
+      {middle + outer + "[frame.joint.more]\nbetween = ['arm.end', 'tip.end']\n", "interface 'arm.end' is joined by 'outer'; divide"},
       {middle + outer + "[frame.joint.more]\nbetween = ['tip.end', 'tip.end']\n", "joins part 'tip' with itself"},
       {middle + outer + "prestress = '5 kN'\n", "prestress: applies to type = \"tie rod\""},
       {middle + outer + "stiffness = 5\n", "stiffness: applies to type = \"bolts\""},
@@ -109,7 +109,7 @@ TEST(PartsScene, RefusesWhatDoesNotFit)
       {middle + "[frame.joint.outer]\ntype = 'bolts'\nbetween = ['arm.end', 'tip.rear']\n", "needs a 'stiffness'"},
       {middle + "[frame.joint.outer]\ntype = 'tie rod'\nbetween = ['arm.end', 'tip.rear']\n", "diameter"},
       {middle + outer + "[frame.part.more]\nsame_as = 'arms'\n", "there is no part 'arms' with its own geometry"},
-      {middle + outer + "[frame.part.more]\nsame_as = 'arm'\nmaterial = 'steel'\n", "is that of 'arm';"},
+      {middle + outer + "[frame.part.more]\nsame_as = 'arm'\nmaterial = 'steel'\n", "is taken from the part 'arm'; with 'same_as' only"},
       {middle + outer + "[reduction]\nmethod = 'none'\n", "parts are joined after their reduction"},
       {middle + outer + "[reduction]\ninside = 'free-interface'\n", "does not retain the joined interfaces"}};
   for (const auto &[joints, words] : refused)

@@ -36,7 +36,7 @@ TEST(Starts, TwoThatStickOnOneMotionAreNamed)
 {
   expect_objection(slide + dry("guide") + dry("seal") + settings,
                    {"element.seal: ", "\"seal\" sticks at the start and constrains the motion of slide",
-                    "which \"guide\" holds too", "give it the type \"friction\""});
+                    "which \"guide\" also constrains", "give it the type \"friction\""});
   EXPECT_EQ(objection(slide + dry("guide") + settings), "");
   EXPECT_EQ(objection(slide + dry("guide") + dry("seal") + start("v = { slide = 1 }") + settings), "");
 }
@@ -44,7 +44,7 @@ TEST(Starts, TwoThatStickOnOneMotionAreNamed)
 TEST(Starts, WhatSticksToWhatAJointHoldsIsNamed)
 {
   expect_objection(slide + dry("guide") + joint("stay", "distance", {{"from", "ground"}, {"to", "slide"}}) + settings,
-                   {"element.guide: ", "\"guide\" sticks at the start", "which \"stay\" holds too"});
+                   {"element.guide: ", "\"guide\" sticks at the start", "which \"stay\" also constrains"});
 }
 
 // The rest of a static start need not be sought for it.

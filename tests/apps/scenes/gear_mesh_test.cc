@@ -160,7 +160,7 @@ TEST(GearMesh, RefusesWhatMakesNoSense)
                    "between -45 and 45 degrees");
   expect_complaint(with(planetary, "to = \"planet\"\naxis = [0, 0, 1]", "to = \"planet\"\naxis = [0, 1, 0]"),
                    "is not that of 'sun'");
-  expect_complaint(with(planetary, "to = \"planet\"\naxis", "to = \"sun\"\naxis"), "lies on 'sun' as `from`");
+  expect_complaint(with(planetary, "to = \"planet\"\naxis", "to = \"sun\"\naxis"), "is on 'sun', the body of `from`");
   expect_complaint(with(planetary, "from = \"sun\"\nto = \"planet\"", "from = \"sun\"\nto = \"arm\""), "coaxial");
   const std::string planet = "type = \"planar\"\nnormal = [0, 0, 1]\nmass = \"4 kg\"\ninertia = \"0.03 kg m^2\"",
                     rigid  = "type = \"rigid\"\nmass = \"4 kg\"\ninertia = [0.03, 0.03, 0.03]";

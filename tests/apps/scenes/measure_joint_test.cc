@@ -351,7 +351,7 @@ TEST(MeasureJoint, BadInputIsReportedWithItsPlace)
                    "does not rotate about");
   expect_complaint(
       joint("type = \"rack\"\nfrom = \"shaft\"\nto = \"slide\"\nradius = \"1 m\"\ndirection = [0, 1, 0]\n"),
-      "right angles");
+      "must be perpendicular to the axis");
   expect_complaint(
       joint("type = \"rack\"\nfrom = \"slide\"\nto = \"shaft\"\nradius = \"1 m\"\ndirection = [0, 1, 0]\n"),
       "not a rotor");

@@ -301,7 +301,7 @@ TEST(PlayScenes, RefuseWhatMakesNoSense)
   EXPECT_EQ(complaint(ball), "");
   EXPECT_EQ(complaint(guide), "");
   expect_complaint(with(ball, "restitution", "at_from = [0, 0, 0]\nrestitution"), "the point of `from` is `at`");
-  expect_complaint(with(disc, "to = \"disc\"", "to = \"ground\""), "lies on 'ground' as `from`");
+  expect_complaint(with(disc, "to = \"disc\"", "to = \"ground\""), "is on 'ground', the body of `from`");
   expect_complaint(with(disc, "clearance = \"0.5 mm\"", "clearance = 0"), "element.bearing.clearance");
   expect_complaint(with(disc, "radius = \"30 mm\"\n", ""), "needs 'radius' of the journal");
   expect_complaint(with(disc, "at = [0, 0, 0]\n", ""), "needs 'at', the centre of the bearing");

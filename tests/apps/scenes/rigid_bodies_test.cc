@@ -326,14 +326,14 @@ TEST(RigidBody, BadInputIsRefusedWithItsReason)
   expect_complaint(body("inertia = [0, 1, 1]\n"), "own axis");
   expect_complaint(body("inertia = [[2, 0.1, 0], [0.2, 2, 0], [0, 0, 2]]\n"), "symmetric");
   expect_complaint(body("inertia = [[2, 0], [0, 2]]\n"), "three rows");
-  expect_complaint(body("inertia = [1, 2, 2]\nprincipal_axes = [[1, 0, 0], [1, 1, 0]]\n"), "right angles");
+  expect_complaint(body("inertia = [1, 2, 2]\nprincipal_axes = [[1, 0, 0], [1, 1, 0]]\n"), "needs two perpendicular directions");
   expect_complaint(good + rotor_body("wheel", "1", "[0, 0, 1]", {{"on", "top"}}), "is a free spatial body");
   expect_complaint(good + "[element.spring]\ntype = \"spring-damper\"\nfrom = \"top\"\nabout = [0, 0, 1]\n"
                           "stiffness = \"1 N m/rad\"\n",
                    "use a [measure]");
   const std::string joint = good + "[joint.pin]\nfrom = \"ground\"\nto = \"top\"\nat = [0, 0, 0]\n";
   expect_complaint(joint + "type = \"revolute\"\n", "axis");
-  expect_complaint(joint + "type = \"universal\"\naxis_from = [0, 0, 1]\naxis_to = [0, 1, 1]\n", "right angles");
+  expect_complaint(joint + "type = \"universal\"\naxis_from = [0, 0, 1]\naxis_to = [0, 1, 1]\n", "must be perpendicular");
   expect_complaint(joint + "type = \"gear\"\nratio = 2\n", "gear");
   expect_complaint(good + "[body.bob]\ntype = \"point\"\nmass = 1\nposition = [1, 0, 0]\n[joint.pin]\n"
                           "type = \"revolute\"\nfrom = \"bob\"\nto = \"top\"\nat = [0, 0, 0]\naxis = [0, 0, 1]\n",

@@ -16,7 +16,7 @@ namespace
 using coupling::JointKind;
 using Eigen::VectorXd;
 
-constexpr auto held_rigid = fem::InterfaceCoupling::rigid;
+constexpr auto clamped_faces = fem::InterfaceCoupling::rigid;
 
 /// A part in its own coordinates, with all its modes.
 coupling::ReducedFrame part_of(const Piece &piece, const fem::FrameSpecification &geometry)
@@ -61,11 +61,12 @@ TEST(PrestressedParts, RodsAndPartsCarryEqualAndOppositeForces)
 {
   // Three bars, the middle one between rigid faces and pressed by a rod: turned across the rod by theta, the rod adds
   // the energy F L theta^2 / 2, the column takes it away, and the whole, turned anywhere, has none.
-  std::vector<Piece> pieces{bar("base", held_rigid, held_rigid), bar("column", held_rigid, held_rigid, part_length),
-                            bar("head", held_rigid, held_rigid, 2. * part_length)};
+  std::vector<Piece> pieces{bar("base", clamped_faces, clamped_faces),
+                            bar("column", clamped_faces, clamped_faces, part_length),
+                            bar("head", clamped_faces, clamped_faces, 2. * part_length)};
   pieces[1].placement.Q << 0., 1., 0., -1., 0., 0., 0., 0., 1.; // drawn along y
   pieces[1].mesh                = box_mesh({{1, 2, 1}}, {{part_height, part_length, part_height}});
-  pieces[1].geometry.interfaces = {interface("rear", {"y0"}, held_rigid), interface("front", {"y1"}, held_rigid)};
+  pieces[1].geometry.interfaces = {interface("rear", {"y0"}, clamped_faces), interface("front", {"y1"}, clamped_faces)};
   pieces[1].placement.at        = {part_length, 0.5 * part_width + 0.5 * part_height, 0.};
   const double F                = 80e3;
   auto         rod              = weld("rod", {"base", "front"}, {"head", "rear"});
@@ -99,7 +100,8 @@ TEST(PrestressedParts, HangingUnderTheirWeightStiffenLikeTheFrameInOnePiece)
   // Two bars along x under 2000 g, welded at rigid faces, and one bar of the same cells: the rigid section in its
   // middle changes omega^2 by some percent, what the weight adds to it by less.
   const fem::Vector3 g{2e4, 0., 0.};
-  std::vector<Piece> pieces{bar("upper", held_rigid, held_rigid), bar("lower", held_rigid, held_rigid, part_length)};
+  std::vector<Piece> pieces{bar("upper", clamped_faces, clamped_faces),
+                            bar("lower", clamped_faces, clamped_faces, part_length)};
   pieces[0].geometry.interfaces.erase(pieces[0].geometry.interfaces.begin());
   pieces[0].geometry.supports = {clamped("ceiling", {"x0"})};
   auto frame                  = described(pieces, {weld("middle", {"upper", "front"}, {"lower", "rear"})});
@@ -126,7 +128,8 @@ TEST(PrestressedParts, BuckleUnderTheirWeightAtGreenhillsLength)
   // A column of two clamped bars under its own weight: q l^3 = 7.837 E I (Greenhill), lowered by shear by about
   // pi^2 E I / (4 l^2 kappa mu A) = 1 %; with the interface rigid and its bound from two load factors higher by some
   // percent.
-  std::vector<Piece> pieces{bar("foot", held_rigid, held_rigid), bar("top", held_rigid, held_rigid, part_length)};
+  std::vector<Piece> pieces{bar("foot", clamped_faces, clamped_faces),
+                            bar("top", clamped_faces, clamped_faces, part_length)};
   pieces[0].geometry.interfaces.erase(pieces[0].geometry.interfaces.begin());
   pieces[0].geometry.supports = {clamped("floor", {"x0"})};
   for (Piece &piece : pieces)

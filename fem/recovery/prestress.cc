@@ -1,4 +1,4 @@
-#include "fem/assembly/prestress.h"
+#include "fem/recovery/prestress.h"
 
 #include "fem/assembly/attached_masses.h"
 #include "fem/assembly/elasticity.h"
