@@ -22,9 +22,11 @@ using Eigen::VectorXd;
 /// Whether A has no entries beside its diagonal, up to the rounding of modes.
 bool decouples(const MatrixXd &A)
 {
-  constexpr double rounding = 1e-10;
-  const VectorXd   scale    = A.diagonal().cwiseAbs().cwiseSqrt();
-  const MatrixXd   rest     = A - MatrixXd(A.diagonal().asDiagonal());
+  constexpr double rounding = 1e-10,
+                   least    = 1e-3; // of the largest damping: that of free and undamped modes is rounding
+  const VectorXd size       = A.diagonal().cwiseAbs();
+  const VectorXd scale      = size.cwiseMax(least * size.maxCoeff()).cwiseSqrt();
+  const MatrixXd rest       = A - MatrixXd(A.diagonal().asDiagonal());
   return (rest.array().abs() <= rounding * (scale * scale.transpose()).array()).all();
 }
 
@@ -104,6 +106,28 @@ std::optional<OwnModes> turn_to_own_modes(ReducedFrame &frame)
   X.topRows(n1)  = MatrixXd::Identity(n1, n);
   turn_rows(frame, X);
   return modes;
+}
+
+FixedModeCoordinates fixed_mode_coordinates(const ReducedFrame &frame)
+{
+  constexpr double rounding = 1e-10; // of C between q1 and modes
+  const Index      n = frame.M.rows(), n1 = frame.n_interface, m = n - n1;
+  const MatrixXd   C_L1 = frame.C.bottomLeftCorner(m, n1), C_LL = frame.C.bottomRightCorner(m, m);
+  if (!frame.modal || !(C_L1.norm() > rounding * C_LL.norm()))
+    return {{}, {}, frame.omega0};
+  const MatrixXd   M_LL  = frame.M.bottomRightCorner(m, m);
+  const DenseModes fixed = dense_modes(C_LL, M_LL);
+  if (fixed.omega.size() < m || !(fixed.omega.minCoeff() > 0.))
+    return {{}, {}, frame.omega0};
+  const MatrixXd Psi = -fixed.V * fixed.omega.cwiseAbs2().cwiseInverse().asDiagonal() * (fixed.V.transpose() * C_L1);
+  const MatrixXd V_inverse = fixed.V.transpose() * M_LL;
+
+  FixedModeCoordinates to{MatrixXd::Identity(n, n), MatrixXd::Identity(n, n), fixed.omega};
+  to.T.bottomLeftCorner(m, n1)       = Psi;
+  to.T.bottomRightCorner(m, m)       = fixed.V;
+  to.inverse.bottomLeftCorner(m, n1) = -V_inverse * Psi;
+  to.inverse.bottomRightCorner(m, m) = V_inverse;
+  return to;
 }
 
 } // namespace gestell::coupling

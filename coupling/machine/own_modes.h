@@ -31,4 +31,13 @@ struct OwnModes
 /// nothing if it is left as it is.
 std::optional<OwnModes> turn_to_own_modes(ReducedFrame &frame);
 
+/// Coordinates (q1, z) of fixed-interface modes, p = T (q1, z), of a frame in others.
+struct FixedModeCoordinates
+{
+  Eigen::MatrixXd T, inverse; ///< [(n1 + m) x (n1 + m)], or empty: the frame is in them already
+  Eigen::VectorXd omega;      ///< [m, rad/s]
+};
+
+FixedModeCoordinates fixed_mode_coordinates(const ReducedFrame &frame);
+
 } // namespace gestell::coupling

@@ -6,9 +6,11 @@
 #include "coupling/substructures/joined_parts.h"
 #include "coupling/substructures/parts_recipe.h"
 #include "coupling/substructures/placed_part.h"
+#include "coupling/substructures/prestress_statement.h"
 #include "coupling/substructures/prestressed_parts.h"
 #include "fem/values/number_text.h"
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,10 +55,11 @@ ReducedFrame reduced_frame_of_parts(const FrameOfParts &given, const ReductionOp
   std::vector<std::string> statements;
   if (given.prestress)
   {
-    frame         = prestressed(given, parts);
-    auto stressed = reduced(frame);
-    statements.push_back("prestress: the buckling factor is at most " +
-                         rounded(buckling_bound(given, parts, frame, stressed)));
+    frame                 = prestressed(given, parts);
+    auto         stressed = reduced(frame);
+    const double bound    = buckling_bound(given, parts, frame, stressed);
+    statements.push_back(std::isinf(bound) ? buckling_statement(bound, " by motions of its interfaces")
+                                           : "prestress: the buckling factor is at most " + rounded(bound));
     parts = std::move(stressed);
   }
   JoinedParts joined = join_parts(all_placed(std::move(parts), frame), frame);

@@ -28,6 +28,7 @@ namespace gestell::fem
  * plane; its inertia is not.  It and the centroid are exact for cells with plane faces.  Rayleigh damping adds beta C
  * u' in the same way; alpha M u', like inertia, is external and not an internal force; modal damping ratios have no
  * force in cells.  A rigid interface or a support that reaches to both sides carries force that is not included.
+ * About a prestressed state moments also contain the stresses above times their displacement relative to the section.
  *
  * @param rayleigh_stiffness  beta [s] of all cells.
  * @throws std::invalid_argument for a zero normal, a first direction along it and a plane that does not cut the frame.

@@ -49,27 +49,27 @@ void add_turn(const Interface &node, const Eigen::Vector3d &c, const Eigen::Vect
         entries.emplace_back(row, column, K(i, j));
 }
 
-bool turns_rigidly(const CoupledPatch &patch)
+/// Whether the node has rotations, those of its face or their mean.
+bool turns(const CoupledPatch &patch)
 {
-  return patch.specification.coupling == InterfaceCoupling::rigid ||
-         patch.specification.coupling == InterfaceCoupling::flexible;
+  return patch.specification.coupling != InterfaceCoupling::node;
 }
 
-/// K of rigid faces and of weights on arms.
+/// K of faces that turn with their nodes and of weights on arms.
 Eigen::SparseMatrix<double> turned_faces(const QuadraticMesh &mesh, const CellMaterials &materials, int n,
                                          const std::vector<CoupledPatch> &coupled, const std::vector<Interface> &nodes,
                                          const PrestressLoads &loads)
 {
   std::vector<char> marked(mesh.n_nodes(), 0);
   for (const CoupledPatch &patch : coupled)
-    if (turns_rigidly(patch))
+    if (turns(patch))
       for (const int node : patch.patch.nodes)
         marked[node] = 1;
   const Eigen::Matrix3Xd c =
       cell_forces(mesh, materials, marked) - loads.on_nodes.reshaped(3, Eigen::Index(mesh.n_nodes()));
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < coupled.size(); ++k)
-    if (turns_rigidly(coupled[k]))
+    if (turns(coupled[k]))
       for (const int node : coupled[k].patch.nodes)
         add_turn(nodes[k], c.col(node), mapped(mesh.points[node]) - coupled[k].position, entries);
   for (const auto &[node, force, arm] : loads.weights)

@@ -37,7 +37,8 @@ PrestressLoads prestress_loads(const Prestress &prestress, const std::vector<Att
 /**
  * Geometric stiffness of the frame [n x n] under the stresses of CellMaterials::u0: the sum of geometric_stiffness() of
  * cells, and for rotations theta of a rigid face, whose points also move by  1/2 theta x (theta x r),  with the forces
- * c_i that hold them (of cells less loads), and for a weight f at an arm r with c = -f:
+ * c_i that hold them (of cells less loads), and for a weight f at an arm r with c = -f. Of an averaged face the node
+ * moves by the same, in the opposite direction:
  *
  *     theta^T K theta = sum c_i . theta x (theta x r_i),     K = sum (c_i r_i^T + r_i c_i^T) / 2 - (c_i . r_i) I.
  *

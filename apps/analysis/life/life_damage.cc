@@ -6,6 +6,7 @@
 #include "apps/analysis/life/weld_points.h"
 #include "apps/output/values/stress_result.h"
 #include "coupling/frame/stress_field.h"
+#include "coupling/machine/own_modes.h"
 #include "fem/values/number_text.h"
 
 #include <Eigen/Geometry>
@@ -110,21 +111,41 @@ MatrixXd without_high_modes(const ReducedFrame &frame, MatrixXd states)
 /// Loads for the error of a life.
 struct OtherLoads
 {
-  LifeLoad coarse;
-  MatrixXd without_modes;
+  LifeLoad         coarse;
+  MatrixXd         without_modes;
+  OtherCoordinates fixed; ///< of modes fixed at the interfaces
+  VectorXd         omega; ///< theirs [rad/s]
 };
+
+/// With the columns of an acceleration field.
+MatrixXd with_field(const MatrixXd &T)
+{
+  MatrixXd whole                          = MatrixXd::Identity(T.rows() + 3, T.cols() + 3);
+  whole.topLeftCorner(T.rows(), T.cols()) = T;
+  return whole;
+}
+
+OtherLoads other_loads(const ReducedFrame &frame, const LifeLoad &load)
+{
+  const auto fixed = coupling::fixed_mode_coordinates(frame);
+  OtherLoads others{half_as_many(load), without_high_modes(frame, load.states), {}, fixed.omega};
+  if (fixed.T.size() > 0)
+    others.fixed = {with_field(fixed.T), with_field(fixed.inverse) * load.states};
+  return others;
+}
 
 /// Parts of statics, which is that of all interfaces (of each alone rigid motions would be a part), and of modes, by
 /// size; a percent or less is left out.
-std::vector<std::pair<std::string, double>> named_shares(const ReducedFrame &frame, const VectorXd &shares)
+std::vector<std::pair<std::string, double>> named_shares(const ReducedFrame &frame, const VectorXd &omega,
+                                                         const VectorXd &shares)
 {
   std::vector<std::pair<std::string, double>> named{{"statics", shares.head(frame.n_interface).sum()}};
   for (Index j = frame.n_interface; j < frame.M.rows(); ++j)
   {
     const Index mode = j - frame.n_interface;
     named.emplace_back("mode " + std::to_string(mode + 1) +
-                           (mode < frame.omega0.size()
-                                ? " fixed at the interfaces, " + short_text(frame.omega0[mode] / (2. * M_PI), 3) + " Hz"
+                           (mode < omega.size()
+                                ? " fixed at the interfaces, " + short_text(omega[mode] / (2. * M_PI), 3) + " Hz"
                                 : ""),
                        shares[j]);
   }
@@ -183,8 +204,9 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
   place.error.mesh  = ratio_of_lives(damage(load.states, load.sequence, 1. + place.disagreement), place.damage);
   place.error.modes = ratio_of_lives(damage(others.without_modes, load.sequence, 1.), place.damage);
   place.error.time  = std::cbrt(ratio_of_lives(damage(others.coarse.states, others.coarse.sequence, 1.), place.damage));
-  place.shares =
-      named_shares(frame, damage_shares(*group.stress, load.states, load.sequence, group.rule, group.search, at));
+  place.shares      = named_shares(
+           frame, others.omega,
+           damage_shares(*group.stress, load.states, load.sequence, group.rule, group.search, at, others.fixed));
   return place;
 }
 
@@ -300,17 +322,17 @@ LifeResult life_of(const Scene &scene, const ReducedFrame &frame, const LifeLoad
   const LifeRequest &life = *scene.life;
   const LifeSkin     skin = skin_of(frame);
   LifeResult         result;
-  result.measure                      = life.measure;
-  result.mean_stress                  = life.mean_stress;
-  result.miner                        = life.miner;
-  result.residue                      = life.residue;
-  result.service                      = load.service;
-  result.strokes                      = load.strokes;
-  result.n_states                     = long(load.n_samples());
-  result.step                         = load.step;
-  const bool                   all    = !life.curve.place.empty();
-  const std::vector<LifeGroup> groups = groups_of(scene, frame, skin);
-  const OtherLoads             others{half_as_many(load), without_high_modes(frame, load.states)};
+  result.measure                                                = life.measure;
+  result.mean_stress                                            = life.mean_stress;
+  result.miner                                                  = life.miner;
+  result.residue                                                = life.residue;
+  result.service                                                = load.service;
+  result.strokes                                                = load.strokes;
+  result.n_states                                               = long(load.n_samples());
+  result.step                                                   = load.step;
+  const bool                                             all    = !life.curve.place.empty();
+  const std::vector<LifeGroup>                           groups = groups_of(scene, frame, skin);
+  const OtherLoads                                       others = other_loads(frame, load);
   std::vector<std::pair<const LifeGroup *, PointDamage>> worst;
   for (const LifeGroup &group : groups)
     for (const PointDamage &at : worst_of(group, load, result))

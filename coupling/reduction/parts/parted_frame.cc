@@ -1,6 +1,7 @@
 #include "coupling/reduction/parts/parted_frame.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "coupling/reduction/mode_ratios.h"
 #include "coupling/reduction/parts/condensed_part.h"
 #include "coupling/reduction/parts/part_file.h"
 #include "coupling/reduction/parts/part_interface.h"
@@ -126,6 +127,12 @@ void for_each_part(const CutFrame &cut, const PartsCall &call, const std::string
                     });
 }
 
+bool has_measured_shapes(const fem::ModalRatios &ratios)
+{
+  return std::any_of(ratios.named.begin(), ratios.named.end(),
+                     [](const fem::NamedRatio &one) { return one.shape.size() > 0; });
+}
+
 /// What is known of the frame at the interface, in the coordinates of the joined parts.
 fem::FrameMatrices on_interface(const fem::FrameMatrices &frame, const PartInterface &interface, Index n)
 {
@@ -140,16 +147,17 @@ fem::FrameMatrices on_interface(const fem::FrameMatrices &frame, const PartInter
   joined.interfaces = frame.interfaces;
   for (fem::Interface &node : joined.interfaces)
     node.renumber([&](int i) { return interface.place(i); });
-  joined.modal_damping_ratio = frame.modal_damping_ratio;
-  joined.translations        = taken(frame.translations);
-  joined.rigid_motions       = taken(frame.rigid_motions);
-  joined.acceleration_load   = taken(frame.acceleration_load);
-  joined.centre              = frame.centre;
-  joined.facts               = frame.facts;
-  joined.mass                = frame.mass;
-  joined.n_cells             = frame.n_cells;
-  joined.notes               = frame.notes;
-  joined.statements          = frame.statements;
+  if (!has_measured_shapes(frame.modal_damping_ratio)) // which need the displacements of the whole
+    joined.modal_damping_ratio = frame.modal_damping_ratio;
+  joined.translations      = taken(frame.translations);
+  joined.rigid_motions     = taken(frame.rigid_motions);
+  joined.acceleration_load = taken(frame.acceleration_load);
+  joined.centre            = frame.centre;
+  joined.facts             = frame.facts;
+  joined.mass              = frame.mass;
+  joined.n_cells           = frame.n_cells;
+  joined.notes             = frame.notes;
+  joined.statements        = frame.statements;
   return joined;
 }
 
@@ -309,7 +317,10 @@ ReducedModel reduce_in_parts(const fem::FrameMatrices &frame, const fem::CellPar
   const DenseModes              modes     = modes_of_interest(reduced.frame);
   Recovered                     recovered = recover_all(cut, call, joined, reduced, modes.V, n);
   reduced.frame.statements.push_back(statement_of(modes, joined, recovered, cut.interface()));
-  return completed(std::move(reduced), frame, std::move(recovered));
+  ReducedModel whole = completed(std::move(reduced), frame, std::move(recovered));
+  if (has_measured_shapes(frame.modal_damping_ratio))
+    add_modal_damping(whole.frame, frame.modal_damping_ratio);
+  return whole;
 }
 
 PartsMemory memory_of_parts(const fem::CellParts &parts, const fem::FrameMatrices &frame, double compactness)

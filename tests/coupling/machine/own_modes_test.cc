@@ -18,8 +18,8 @@ using Eigen::VectorXd;
 
 constexpr int n1 = 6, m = 70, n = n1 + m;
 
-/// In Craig-Bampton coordinates, with another damping ratio in each of its own modes.
-ReducedFrame frame_with_modal_damping()
+/// In Craig-Bampton coordinates, with another damping ratio in each of its first own modes.
+ReducedFrame frame_with_modal_damping(int n_damped = n, bool floats = false)
 {
   std::srand(5);
   const auto   square = [](const MatrixXd &A) -> MatrixXd { return A * A.transpose(); };
@@ -36,10 +36,14 @@ ReducedFrame frame_with_modal_damping()
   frame.C                         = MatrixXd::Zero(n, n);
   frame.C.topLeftCorner(n1, n1)   = 1e7 * (square(MatrixXd::Random(n1, n1)) + 0.1 * MatrixXd::Identity(n1, n1));
   frame.C.bottomRightCorner(m, m) = frame.omega0.cwiseAbs2().asDiagonal();
-  const auto     own              = coupling::dense_modes(frame.C, frame.M);
-  const MatrixXd Z                = frame.M * own.V;
-  frame.B              = Z * (VectorXd::LinSpaced(n, 0.02, 0.1).cwiseProduct(own.omega)).asDiagonal() * Z.transpose();
-  frame.frequencies_hz = own.omega / (2. * M_PI);
+  if (floats)
+    frame.C.topLeftCorner(n1, n1).setZero();
+  const auto     own   = coupling::dense_modes(frame.C, frame.M, coupling::cancelled_by_reduction, floats ? n1 : 0);
+  const MatrixXd Z     = frame.M * own.V;
+  VectorXd       ratio = VectorXd::LinSpaced(n, 0.02, 0.1);
+  ratio.tail(n - n_damped).setZero();
+  frame.B                 = Z * ratio.cwiseProduct(own.omega).asDiagonal() * Z.transpose();
+  frame.frequencies_hz    = own.omega / (2. * M_PI);
   frame.translations_load = MatrixXd::Random(n, 3);
   return frame;
 }
@@ -64,6 +68,35 @@ TEST(OwnModes, AreOtherCoordinatesOfTheSameFrame)
   ASSERT_TRUE(coupling::turn_to_own_modes(twice));
   EXPECT_LT((twice.M - turned.M).norm(), 1e-9 * turned.M.norm());
   EXPECT_LT((twice.C - turned.C).norm(), 1e-9 * turned.C.norm());
+}
+
+TEST(OwnModes, AreLedBackToThoseOfTheFixedInterface)
+{
+  const ReducedFrame frame  = frame_with_modal_damping();
+  ReducedFrame       turned = frame;
+  EXPECT_EQ(coupling::fixed_mode_coordinates(frame).T.size(), 0);
+  ASSERT_TRUE(coupling::turn_to_own_modes(turned));
+  const auto fixed = coupling::fixed_mode_coordinates(turned);
+  EXPECT_LT((fixed.omega - frame.omega0).cwiseAbs().maxCoeff(), 1e-8 * frame.omega0.maxCoeff());
+  EXPECT_LT((fixed.T * fixed.inverse - MatrixXd::Identity(n, n)).norm(), 1e-8);
+  const MatrixXd C = fixed.T.transpose() * turned.C * fixed.T;
+  EXPECT_LT((C - frame.C).norm(), 1e-8 * frame.C.norm());
+}
+
+TEST(OwnModes, MayBeFreeOrUndamped)
+{
+  for (ReducedFrame frame : {frame_with_modal_damping(20), frame_with_modal_damping(n, true)})
+  {
+    const std::optional<OwnModes> modes = coupling::turn_to_own_modes(frame);
+    ASSERT_TRUE(modes);
+    MatrixXd B                = MatrixXd::Zero(n, n); // of the modes, in the turned coordinates
+    B.topLeftCorner(n1, n1)   = modes->S.transpose() * modes->damping.head(n1).asDiagonal() * modes->S;
+    B.topRightCorner(n1, m)   = -modes->S.transpose() * modes->damping.head(n1).asDiagonal() * modes->R;
+    B.bottomLeftCorner(m, n1) = B.topRightCorner(n1, m).transpose();
+    B.bottomRightCorner(m, m) = modes->R.transpose() * modes->damping.head(n1).asDiagonal() * modes->R;
+    B.bottomRightCorner(m, m).diagonal() += modes->damping.tail(m);
+    EXPECT_LT((B - frame.B).norm(), 1e-10 * frame.B.norm());
+  }
 }
 
 TEST(OwnModes, AreLeftAloneWhereDampingDoesNotFitThemOrStepsAreCheapAnyway)

@@ -1,5 +1,6 @@
 // One mesh cut into parts against the same frame in one piece.
 
+#include "coupling/algebra/dense_modes.h"
 #include "coupling/frame/frame_cache.h"
 #include "coupling/reduction/parts/parted_frame.h"
 #include "fem/recovery/discretisation.h"
@@ -169,6 +170,23 @@ TEST_F(FrameInParts, IsTheSameSideBySideAndInOneProcess)
     unsetenv("GESTELL_ONE_PROCESS");
     empty_cache();
   }
+}
+
+TEST_F(FrameInParts, HasTheDampingOfMeasuredShapes)
+{
+  CutCase               frame    = cut_cases().front();
+  const ReducedFrame    undamped = reduced_in_parts(frame, 3);
+  const auto            own      = coupling::dense_modes(undamped.C, undamped.M, coupling::cancelled_by_reduction);
+  const double          hz       = 1.1 * own.omega[2] / (2. * M_PI);
+  const Eigen::VectorXd shape    = undamped.displacement.cast<double>() * own.V.col(2);
+  frame.specification.modal_damping_ratio       = 0.03;
+  frame.specification.modal_damping_ratio.named = {
+      {0.01, -1, hz, hz, undamped.points, shape.cast<std::complex<double>>()}};
+  const ReducedFrame damped = reduced_in_parts(frame, 3);
+  EXPECT_THAT(damped.statements, ::testing::Contains(::testing::HasSubstr("MAC 1 of the frame, ratio 1 %")));
+  const Eigen::VectorXd dampers = (own.V.transpose() * damped.B * own.V).diagonal();
+  for (const int j : {0, 1, 2, 3})
+    EXPECT_NEAR(dampers[j], 2. * (j == 2 ? 0.01 : 0.03) * own.omega[j], 1e-6 * own.omega[j]) << j;
 }
 
 TEST_F(FrameInParts, TakesPartsThatAreDoneFromTheCache)

@@ -38,12 +38,12 @@ double buckling_factor(const fem::Discretisation &frame)
   return INFINITY;
 }
 
-/// A block on soft ground with a rigid face on top, a counterweight beside it, and its own weight.
-fem::FrameSpecification heavy_block()
+/// A block on soft ground with a coupled face on top, a counterweight above it, and its own weight.
+fem::FrameSpecification heavy_block(fem::InterfaceCoupling coupling = fem::InterfaceCoupling::rigid)
 {
   auto s       = free_steel();
   s.supports   = {foundation("ground", {"z0"}, {1e3, 1e3, 1e7})}; // next to no friction
-  s.interfaces = {interface("head", {"z1"}, fem::InterfaceCoupling::rigid)};
+  s.interfaces = {interface("head", {"z1"}, coupling)};
   fem::AttachedMass m;
   m.name      = "motor";
   m.mass      = 3000.;
@@ -64,15 +64,20 @@ TEST_P(GeometricStiffness, IsSymmetricAndTurnsWithTheWorkOfTheWeight)
   // Translations move no stress; a rotation theta about a horizontal axis lowers the weight m g at the height h by
   // m g h theta^2 / 2, reactions in the plane of the ground do no work.
   const std::array<double, 3> size{1., 0.8, 1.5};
-  const auto                  frame = stressed(GetParam()({2, 2, 3}, size, 0.2), heavy_block());
-  const Eigen::MatrixXd       K = frame.geometric, &R = frame.matrices.rigid_motions;
-  EXPECT_EQ((K - K.transpose()).cwiseAbs().maxCoeff(), 0.);
-  const double rounding = 1e-12 * K.cwiseAbs().rowwise().sum().maxCoeff();
-  EXPECT_LT((K * R.leftCols<3>()).cwiseAbs().maxCoeff(), rounding);
-
-  const double moment = 9.81 * (rho * size[0] * size[1] * size[2] * size[2] / 2. + 3000. * 2.5);
-  for (const int axis : {3, 4})
-    EXPECT_NEAR(R.col(axis).dot(K * R.col(axis)), -moment, 1e-8 * moment) << axis;
+  const double                moment = 9.81 * (rho * size[0] * size[1] * size[2] * size[2] / 2. + 3000. * 2.5);
+  for (const auto coupling : {fem::InterfaceCoupling::rigid, fem::InterfaceCoupling::average})
+    for (const double height : {1.5, 2.2}) // of the node, whose face is at 1.5 m
+    {
+      auto specification                   = heavy_block(coupling);
+      specification.interfaces[0].position = fem::Vector3{0.5, 0.4, height};
+      const auto            frame          = stressed(GetParam()({2, 2, 3}, size, 0.2), specification);
+      const Eigen::MatrixXd K = frame.geometric, &R = frame.matrices.rigid_motions;
+      EXPECT_EQ((K - K.transpose()).cwiseAbs().maxCoeff(), 0.);
+      const double rounding = 1e-12 * K.cwiseAbs().rowwise().sum().maxCoeff();
+      EXPECT_LT((K * R.leftCols<3>()).cwiseAbs().maxCoeff(), rounding);
+      for (const int axis : {3, 4})
+        EXPECT_NEAR(R.col(axis).dot(K * R.col(axis)), -moment, 1e-8 * moment) << axis << ", " << height;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, GeometricStiffness, ::testing::Values(box_mesh, brick_mesh, prism_mesh));

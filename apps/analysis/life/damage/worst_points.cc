@@ -177,7 +177,8 @@ VectorXd stress_history(const coupling::ReducedStress &stress, const MatrixXd &s
 }
 
 VectorXd damage_shares(const coupling::ReducedStress &stress, const MatrixXd &states, const LoadSequence &load,
-                       const DamageRule &rule, const DamageSearch &search, const PointDamage &at)
+                       const DamageRule &rule, const DamageSearch &search, const PointDamage &at,
+                       const OtherCoordinates &z)
 {
   const VectorXd            x      = stress_history(stress, states, search, at);
   const std::vector<Cycle>  cycles = count_cycles(x, load);
@@ -187,11 +188,13 @@ VectorXd damage_shares(const coupling::ReducedStress &stress, const MatrixXd &st
   if (!(total > 0.) || !std::isfinite(total))
     return shares;
   const MatrixXd S     = search.factor * stress.mean.middleRows<6>(6 * Index(at.point)).cast<double>();
+  const bool     other = z.T.size() > 0;
+  const MatrixXd S_z   = other ? MatrixXd(S * z.T) : S;
   const auto     parts = [&](std::int64_t t) -> VectorXd // of the coordinates in x(t)
   {
     const StressRow row =
         search.measure == StressMeasure::signed_von_mises ? signed_von_mises_row(S * states.col(t)) : at.row;
-    return (row * S).transpose().cwiseProduct(states.col(t));
+    return (row * S_z).transpose().cwiseProduct((other ? z.z : states).col(t));
   };
   for (std::size_t k = 0; k < cycles.size(); ++k)
     if (damage[k] > 0.)

@@ -42,8 +42,14 @@ PointDamage point_damage(const coupling::ReducedStress &stress, const Eigen::Mat
 Eigen::VectorXd stress_history(const coupling::ReducedStress &stress, const Eigen::MatrixXd &states,
                                const DamageSearch &search, const PointDamage &at);
 
+/// The states in other coordinates, states = T z; empty: the same.
+struct OtherCoordinates
+{
+  Eigen::MatrixXd T, z;
+};
+
 /**
- * Part of each coordinate of the states in the damage at a point [n1 + m + 3]: its part in the range of each cycle,
+ * Part of each coordinate z of the states in the damage at a point [n1 + m + 3]: its part in the range of each cycle,
  * weighted by the cycle's damage,
  *
  *     s_j = sum_k (D_k / D) a_j (z_j(end_k) - z_j(begin_k)) / (x(end_k) - x(begin_k)),   sum_j s_j = 1.
@@ -52,6 +58,6 @@ Eigen::VectorXd stress_history(const coupling::ReducedStress &stress, const Eige
  */
 Eigen::VectorXd damage_shares(const coupling::ReducedStress &stress, const Eigen::MatrixXd &states,
                               const LoadSequence &load, const DamageRule &rule, const DamageSearch &search,
-                              const PointDamage &at);
+                              const PointDamage &at, const OtherCoordinates &z = {});
 
 } // namespace gestell::apps
