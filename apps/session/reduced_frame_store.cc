@@ -110,7 +110,7 @@ std::shared_ptr<const coupling::ReducedFrame> ReducedFrameStore::frame(const Sce
   const FileLock         alone(made ? lock_file(key) : "");
   coupling::ReducedFrame frame =
       made ? reduced_frame(scene, progress).frame : coupling::read_reduced_frame(scene.frame.reduced_file);
-  if (!drawn_ && !scene.stress.given)
+  if (!drawn_ && !scene.frame.geometry.stress)
     frame = without_pictures(std::move(frame));
   kept_.emplace_front(key, std::make_shared<const coupling::ReducedFrame>(std::move(frame)));
   constexpr std::size_t most_kept = 3; // frames: studies vary few, and each keeps its memory

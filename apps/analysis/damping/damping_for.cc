@@ -63,6 +63,7 @@ public:
     own.B.setZero();
     coupling::add_modal_damping(own, ratios_);
     undamped_.B -= own.B;
+    undamped_.B = (0.5 * (undamped_.B + undamped_.B.transpose())).eval(); // what rounding leaves is symmetric, too
   }
 
   static const fem::ModalRatios *ratios_of(const FrameRequest &frame)

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -197,10 +198,14 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
   }
   if (const int nearby = frame.stress.nearby[std::size_t(skin_point)]; nearby >= 0)
     place.nearby = frame.stress.rigid[std::size_t(nearby)];
-  if (!(place.damage > 0.))
-    return place;
   const auto damage = [&](const MatrixXd &states, const LoadSequence &sequence, double factor)
   { return damage_there(group, at, states, sequence, factor); };
+  if (!(place.damage > 0.))
+  {
+    if (damage(load.states, load.sequence, 1. + place.disagreement) > 0.)
+      place.error.mesh = std::numeric_limits<double>::infinity();
+    return place;
+  }
   place.error.mesh  = ratio_of_lives(damage(load.states, load.sequence, 1. + place.disagreement), place.damage);
   place.error.modes = ratio_of_lives(damage(others.without_modes, load.sequence, 1.), place.damage);
   place.error.time  = std::cbrt(ratio_of_lives(damage(others.coarse.states, others.coarse.sequence, 1.), place.damage));
@@ -383,9 +388,12 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
   if (worst->disagreement > resolved_disagreement)
     warnings.push_back("life: the mesh does not resolve the worst place " + place(*worst) +
                        ": the stresses of neighbouring elements differ by " + percent(worst->disagreement, 2) +
-                       ", a factor of " + short_text(worst->error.mesh, 3) +
-                       " on life; refine it there, or use the hot-spot stress for a weld");
-  if (found.beside_rigid && found.beside_rigid->damage > worst->error.total() * worst->damage)
+                       (std::isfinite(worst->error.mesh)
+                            ? ", a factor of " + short_text(worst->error.mesh, 3) + " on life"
+                            : ", enough for damage") +
+                       "; refine it there, or use the hot-spot stress for a weld");
+  if (found.beside_rigid &&
+      found.beside_rigid->damage > (worst->damage > 0. ? worst->error.total() * worst->damage : 0.))
     warnings.push_back("life: the damage at " + place(*found.beside_rigid) + ", next to " + found.beside_rigid->nearby +
                        ", is larger, " + short_text(found.beside_rigid->damage, 3) +
                        ", but the stress at the edge of a rigid surface is singular, so no mesh resolves it; use "

@@ -1,10 +1,12 @@
 #include "apps/analysis/life/life_load.h"
 
 #include "apps/analysis/life/life_rules.h"
+#include "apps/scene/file/scene_override.h"
 #include "coupling/frame/stress_field.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 
@@ -65,11 +67,36 @@ std::string frame_words(const ReducedFrame &frame)
          count_text(std::size_t(frame.M.rows() - frame.n_interface), "mode");
 }
 
+const SceneNode *node_at(const SceneNode &root, const std::string &key)
+{
+  const SceneNode *node = &root;
+  for (const std::string &segment : key_segments(key, root.place))
+    node = node ? node->find(segment) : nullptr;
+  return node;
+}
+
+/// Sets the changes of the own scene whose keys the block inherits from the same line, or that neither file has.
+void apply_changes_of(const Variant &own, Variant &block)
+{
+  if (own.changes.empty())
+    return;
+  const SceneNode file  = std::filesystem::exists(own.path) ? Variant::of_file(own.path).root : SceneNode();
+  const SceneNode other = block.root;
+  for (const std::string &change : own.changes)
+  {
+    const std::string key  = parsed_override(change).first;
+    const SceneNode  *here = node_at(file, key), *there = node_at(other, key);
+    if (here && there ? here->place.text() == there->place.text() : here == there)
+      block.set(change);
+  }
+}
+
 /// Another scene on this frame, with the states and stresses that are needed here.
 std::unique_ptr<Session> block_session(Session &own, const BlockRequest &block, const ReducedFrame &frame)
 {
-  Variant variant               = Variant::of_file(block.file, {}, own.variant().scripts);
-  Scene   scene                 = variant.scene();
+  Variant variant = Variant::of_file(block.file, {}, own.variant().scripts);
+  apply_changes_of(own.variant(), variant);
+  Scene scene                   = variant.scene();
   scene.frame.geometry.stress   = true;
   scene.run.options.states.step = own.scene().run.options.states.step;
   const std::string place       = block.place + ": the scene \"" + scene.name + "\" ";

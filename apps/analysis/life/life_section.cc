@@ -38,10 +38,15 @@ std::string worst_words(const LifeResult &found)
          " strokes or " + life_words(worst.hours) + " h until failure.";
 }
 
+std::string factor_words(double factor)
+{
+  return std::isfinite(factor) ? short_text(factor, 3) : "unbounded";
+}
+
 std::string error_words(const LifePlace &worst)
 {
-  return "Error as a factor on life: " + short_text(worst.error.total(), 3) + " (mesh " +
-         short_text(worst.error.mesh, 3) + ", modes " + short_text(worst.error.modes, 3) + ", time " +
+  return "Error as a factor on life: " + factor_words(worst.error.total()) + " (mesh " +
+         factor_words(worst.error.mesh) + ", modes " + short_text(worst.error.modes, 3) + ", time " +
          short_text(worst.error.time, 3) + ").";
 }
 
@@ -72,7 +77,7 @@ HtmlTable places_table(const LifeResult &found)
     table.add({x.nearby.empty() ? x.of : "beside " + x.nearby, position_words(x),
                peak(short_text(x.damage, 3), &x == found.worst()), life_words(x.strokes), life_words(x.hours),
                short_text(x.range / mega), short_text(x.mean / mega), short_text(x.cycles), percent(x.disagreement, 2),
-               short_text(x.error.total(), 3)});
+               factor_words(x.error.total())});
   };
   for (const LifePlace &x : found.places)
     add(x);
@@ -112,7 +117,7 @@ Headline headline_of(const LifeResult &found)
     return {};
   return {worst_words(found),
           {{life_words(worst->strokes), "strokes until failure"},
-           {short_text(worst->error.total(), 3), "factor on life, error"},
+           {factor_words(worst->error.total()), "factor on life, error"},
            {short_text(worst->range / mega) + " MPa", "largest range at the worst place"}}};
 }
 

@@ -135,6 +135,19 @@ CurveRequest read_curve(const SceneTable &table)
                                      "; order the rows by cycles, with ranges that become smaller");
   if (!curve.notch_class && curve.points.empty() && !curve.strength)
     throw table.error("needs 'class', 'table' or 'strength'");
+  constexpr double least_strength = 1e6; // [Pa]: of no metal; a number without a unit is in Pa
+  const auto       require_metal  = [&](const std::string &key, double stress)
+  {
+    if (stress < least_strength)
+      throw table.error(key,
+                        "is " + short_text(stress) + " Pa; write the unit, such as \"" + short_text(stress) + " MPa\"");
+  };
+  if (curve.strength)
+    require_metal("strength", *curve.strength);
+  if (!curve.points.empty())
+    require_metal("table", curve.points.front()[1]);
+  if (table.has("design_factor") && (curve.notch_class || !curve.points.empty()))
+    throw table.error("design_factor", "belongs to the FKM curve of 'strength'; remove it");
   return curve;
 }
 
@@ -210,6 +223,12 @@ void read_life(const SceneTable &scene, Scene &result)
     life.blocks.back().place = block.place();
     require_whole(block, life.blocks.back().repetitions);
   }
+  const auto ignores_mean = [](const CurveRequest &curve)
+  { return curve.notch_class || (!curve.points.empty() && !curve.ratio); };
+  if (life.mean_stress != "none" && (life.curve.place.empty() || ignores_mean(life.curve)) &&
+      std::all_of(life.welds.begin(), life.welds.end(),
+                  [&](const WeldRequest &weld) { return !weld.curve || ignores_mean(*weld.curve); }))
+    throw table.error("mean_stress", "has no effect on notch classes and on tables without 'ratio'; remove it");
   if (life.curve.place.empty())
     for (const WeldRequest &weld : life.welds)
       if (!weld.curve)

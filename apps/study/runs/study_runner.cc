@@ -223,7 +223,8 @@ Result StudyRunner::single_result(const Eigen::VectorXd &levels, const std::atom
   if (frame)
     session.use_frame(*frame);
   const Analyses analyses = analyses_of("run", {{"--sensitivities", {sensitivities}}});
-  return kept_.empty() ? run_with(analyses, session) : complete_run(session, analyses);
+  const bool answers = !kept_.empty() || session.scene().life; // of a run, for its report and as outputs of the study
+  return answers ? complete_run(session, analyses) : run_with(analyses, session);
 }
 
 void StudyRunner::keep(int number, const Result &result) const
