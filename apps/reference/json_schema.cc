@@ -170,6 +170,9 @@ std::vector<Key> keys_here(const Place &place)
       }
       same->others.push_back(key.form);
       same->others.insert(same->others.end(), key.others.begin(), key.others.end());
+      for (const Key &inner : key.keys)
+        if (!find_key(same->keys, inner.name))
+          same->keys.push_back(inner);
     }
   return keys;
 }

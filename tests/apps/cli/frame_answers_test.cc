@@ -71,7 +71,7 @@ TEST_F(FrameAnswers, JointsFarFromTheFacesOfTheirInterfaceGiveAWarning)
     return block(support + planar_body("bob", "2 kg", "0.1 kg m^2", at) +
                  joint("pin", type, "frame.top", "bob", at, more));
   };
-  const std::string far = "joint \"pin\": its point on \"frame.top\" lies ";
+  const std::string far = "joint \"pin\": its point on \"frame.top\" is ";
   for (const auto &[scene, lies] :
        {std::pair(pendulum("revolute", "[0.1, 0.05, 2.4]"), "1.4 m outside the faces of this interface, which are "
                                                             "0.1 m across"),

@@ -79,8 +79,8 @@ TEST_F(FrameCacheCommand, NamesChoicesAsScenesDo)
                             " --set frame.interface.top.coupling='\"average\"' "
                             "--set reduction.inside='\"free-interface\"' --set frame.mesh.overlaps='\"once\"'");
   for (const char *part :
-       {"interface.1.coupling: kept rigid, asked average\n", "mesh.overlaps: kept refused, asked once\n",
-        "reduction.method: kept craig-bampton, asked free-interface\n"})
+       {"interface.1.coupling: cached rigid, requested average\n", "mesh.overlaps: cached refused, requested once\n",
+        "reduction.method: cached craig-bampton, requested free-interface\n"})
     EXPECT_TRUE(miss.says(part)) << miss.text;
 }
 

@@ -65,11 +65,11 @@ const std::vector<Mistake> of_the_press = {
     {"TorqueOnAMassThatDoesNotTurn",
      {{"[element.sheet]", "[element.shake]\ntype = \"force\"\nfrom = \"frame.crown\"\nabout = [0, 1, 0]\n"
                           "constant = \"1 N m\"\n[element.sheet]"}},
-     {"element.shake", "\"frame.crown\" does not rotate about [0, 1, 0]", "it has uz; name another DOF"}},
+     {"element.shake", "\"frame.crown\" does not rotate about [0, 1, 0]", "its DOFs on the frame: uz; name another DOF"}},
     {"ProfileAcrossAMassThatIsHeld",
      {{"[element.sheet]", "[element.shake]\ntype = \"force profile\"\nfrom = \"frame.crown\"\ndirection = [1, 0, 0]\n"
                           "profile = \"10 N*sin(t/s)\"\n[element.sheet]"}},
-     {"element.shake", "\"frame.crown\" does not move along [1, 0, 0]", "it has uz"}},
+     {"element.shake", "\"frame.crown\" does not move along [1, 0, 0]", "its DOFs on the frame: uz"}},
     {"SpringAcrossAMassThatIsHeld",
      {{"[element.sheet]", "[element.shake]\ntype = \"spring-damper\"\nfrom = \"frame.crown\"\nto = \"frame.table\"\n"
                           "direction = [0, 1, 0]\nstiffness = \"1 N/mm\"\n[element.sheet]"}},
@@ -194,7 +194,7 @@ TEST(MistakeInAFile, IsAnsweredWithItsLineAndWhatToSaveItAs)
   expect_answer(check(edited(press_scene(), {{"# drive", "# Antrieb f\xFCr"}})), 2,
                 {"scene.toml:17: ", "save the file as UTF-8"});
   expect_answer(check(edited(press_scene(), {{"step   = \"10 us\"", "step   = 1e400"}})), 2,
-                {"scene.toml:196: ", "beyond 1.8e308"});
+                {"scene.toml:196: ", "exceeds 1.8e308"});
   expect_answer(check("ISO-10303-21;\n"), 2, {"scene.toml:1: ", "gestell mesh FILE", "frame.cad"});
   expect_answer(check(""), 2, {"has no moving part", "[body.NAME]"});
   EXPECT_EQ(check("\xEF\xBB\xBF" + press_scene()).exit_code, 0); // what editors of Windows put there
@@ -213,7 +213,7 @@ TEST(MistakeOnTheCommandLine, IsAnsweredWithTheOptionAndWhatItTakes)
   expect_answer(run("--set run.stp=1e-5"), 2, {"--set run.stp=1e-5", "did you mean 'step'"});
   expect_answer(run("--set run.step"), 2, {"needs the form key.path=value"});
   expect_answer(run("--set frame.damping='[[-1e6, 0], [0, -1e6]]'"), 2, {"frame.damping"});
-  expect_answer(run("--set output.signals='[\"rod.force\", \"rod.force\"]'"), 2, {"twice"});
+  expect_answer(run("--set output.signals='[\"rod.force\", \"rod.force\"]'"), 2, {"duplicate"});
   expect_answer(run("--set run.step=1e-13"), 2, {"run.step"});
   expect_answer(run("--set run.method=newmark --set run.beta=0 --set run.step=1e-2"), 2, {"unstable"});
   expect_answer(run("--set parameters.c_el='\"1000 kN/mm\"'"), 2, {"elastic_stiffness"});

@@ -97,7 +97,7 @@ TEST(StudyCommand, DoesNotMergeSharesThatAreBeingMade)
   expect_answer(both, 0, {"is running a share of a study there", "6 runs made"});
   expect_answer(gestell(study), 0, {"6 runs made"});
   EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 12);
-  expect_answer(gestell(study + "--share 2/2"), 2, {"holds 12 rows of this study; complete them"});
+  expect_answer(gestell(study + "--share 2/2"), 2, {"contains 12 rows of this study; complete them"});
 }
 
 /// A search on runs of the press, and draws about what it finds.

@@ -203,7 +203,7 @@ TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
   wrong.period = "2 s";
   EXPECT_THAT(words(course, wrong), testing::HasSubstr("does not repeat"));
   wrong.period = "-2 s";
-  EXPECT_THAT(words(course, wrong), testing::HasSubstr("above zero"));
+  EXPECT_THAT(words(course, wrong), testing::HasSubstr("must be a positive time"));
   PeriodicRequest along;
   along.along = "parameters.x";
   along.from  = "1 m";

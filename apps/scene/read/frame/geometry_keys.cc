@@ -85,8 +85,6 @@ const std::vector<Key> &prestress_keys()
           "static loads on surfaces, `[{ surface = \"table\", force = [0, 0, \"-500 kN\"] }]`; they keep their "
           "direction")
           .by_default("none"),
-      key::truth("tie_rods", false,
-                 "include the forces of the tie rods (`prestress` of the joints), in a frame of parts"),
       key::number("factor", kind::number, "factor of these loads").by_default(1.)};
   return keys;
 }

@@ -332,8 +332,6 @@ fem::Prestress read_prestress(const SceneTable &table, const SceneTable &scene)
 fem::Prestress read_surface_loads(const SceneTable &table, const SceneTable &scene,
                                   const fem::FrameSpecification &frame)
 {
-  if (table.truth("tie_rods"))
-    throw table.error("tie_rods", "needs a frame of parts that are joined by tie rods; remove it");
   fem::Prestress prestress = read_prestress(table, scene);
   if (frame.parts != 1)
     throw table.error("needs the whole frame at once; leave out 'parts'");

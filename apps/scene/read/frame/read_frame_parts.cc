@@ -39,9 +39,12 @@ const std::vector<Key> &parts_frame_keys()
                  "modal damping ratios of the joined frame, `{ ratio = 0.02 }`, in addition to the damping of the "
                  "parts; `rayleigh` is a key of the parts")
           .by_default("that of the parts"),
-      key::table("prestress", prestress_keys(),
+      key::table("prestress",
+                 {*find_key(prestress_keys(), "gravity"),
+                  key::truth("tie_rods", false, "include the forces of the tie rods (`prestress` of the joints)"),
+                  *find_key(prestress_keys(), "factor")},
                  "static loads whose stresses stiffen or soften the parts and the tie rods, as for a frame of one "
-                 "part, without `loads`: `{ tie_rods = true }`")
+                 "part: `{ tie_rods = true }`")
           .by_default("none"),
       key::choice("modes", {"by tolerance", "all"}, true,
                   "modes of the joined parts with the interfaces of the mechanism fixed: as many as `[reduction]` "
@@ -309,8 +312,6 @@ FrameOfParts read_frame_parts(const SceneTable &any, const SceneTable &scene)
   read_whole_damping(frame, parts);
   if (const auto prestress = frame.optional_table("prestress"))
   {
-    if (prestress->has("loads"))
-      throw prestress->error("loads", "surface loads do not apply to a frame of parts; use gravity or tie_rods");
     parts.prestress           = read_prestress(*prestress, scene);
     parts.prestress->tie_rods = prestress->truth("tie_rods");
     if (!parts.prestress->tie_rods && parts.prestress->acceleration == fem::Vector3{})
