@@ -235,7 +235,7 @@ TEST(BadJoints, AreRefusedWithTheirPlaceAndAWayOut)
   EXPECT_THAT(joint_refusal(bars, described(bars, {weld("middle", {"first", "front"}, {"first", "rear"})})),
               HasSubstr("joins part 'first' with itself"));
   EXPECT_THAT(joint_refusal(bars, described(bars, {good, weld("again", {"first", "front"}, {"second", "rear"})})),
-              HasSubstr("frame.joint.again: interface 'first.front' is joined by 'middle' already"));
+              HasSubstr("frame.joint.again: interface 'first.front' is joined by 'middle'; divide its surfaces"));
   EXPECT_THAT(joint_refusal(bars, described(bars, {})),
               HasSubstr("frame.part.second: no joint connects this part with 'first'"));
   auto loose            = good;
