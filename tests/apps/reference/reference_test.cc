@@ -113,18 +113,25 @@ std::vector<std::string> documents()
   return files;
 }
 
-/// Tables of a scene below a heading, "[frame.surface.NAME]".
+/// Tables of a scene below a heading, "[frame.surface.NAME]", "[[life.weld]]".
 std::vector<const SceneNode *> tables_below(const SceneNode &root, const std::string &heading)
 {
   std::vector<const SceneNode *> found{&root};
-  std::stringstream              path(heading.empty() ? "" : heading.substr(1, heading.size() - 2));
+  const std::size_t              begin = std::min(heading.find_first_not_of('['), heading.size());
+  std::stringstream              path(heading.substr(begin, heading.size() - 2 * begin));
   for (std::string part; std::getline(path, part, '.');)
   {
     std::vector<const SceneNode *> next;
     for (const SceneNode *node : found)
       for (const auto &[key, value] : node->entries)
-        if (value.type == SceneNode::Type::table && (part == "NAME" || part == key))
-          next.push_back(&value);
+        if (part == "NAME" || part == key)
+        {
+          if (value.type == SceneNode::Type::table)
+            next.push_back(&value);
+          for (const SceneNode &element : value.elements)
+            if (element.type == SceneNode::Type::table)
+              next.push_back(&element);
+        }
     found = next;
   }
   return found;
