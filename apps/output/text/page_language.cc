@@ -74,6 +74,7 @@ std::vector<std::string> kept_by(const std::vector<std::string> &parts, const st
   return kept;
 }
 
+/// By its own line before a pattern.
 std::optional<std::string> of_whole(const Dictionary &words, const std::string &text)
 {
   if (const auto found = words.texts.find(text); found != words.texts.end())
@@ -92,13 +93,11 @@ std::optional<std::string> of_whole(const Dictionary &words, const std::string &
 
 std::string in_german(const std::string &text)
 {
-  static const Dictionary words = read_dictionary();
-  if (const auto whole = of_whole(words, text))
-    return *whole;
-  const std::size_t unit = text.rfind(" [");
-  if (unit == std::string::npos || text.back() != ']')
-    return text;
-  return of_whole(words, text.substr(0, unit)).value_or(text.substr(0, unit)) + text.substr(unit);
+  static const Dictionary words    = read_dictionary();
+  const bool              has_unit = !text.empty() && text.back() == ']';
+  const std::size_t       unit     = has_unit ? std::min(text.rfind(" ["), text.size()) : text.size();
+  const std::string       name     = text.substr(0, unit);
+  return of_whole(words, name).value_or(name) + text.substr(unit);
 }
 
 /// Replaces the texts that begin after `begin` and end before `end`, in a part of the page.

@@ -54,6 +54,7 @@ TEST_F(PageLanguage, TranslatesHeadsAndKeepsUnitsNamesAndSentences)
 {
   EXPECT_EQ(german("<h2>Modes</h2><p>Modes</p><td>mode</td>"), "<h2>Eigenformen</h2><p>Modes</p><td>mode</td>");
   EXPECT_EQ(german("<th class=\"n\">phase [deg]</th>"), "<th class=\"n\">Phase [deg]</th>");
+  EXPECT_EQ(german("<th>largest range [MPa]</th>"), "<th>größte Schwingbreite [MPa]</th>");
   EXPECT_EQ(german("<summary>12 more charts</summary>"), "<summary>12 weitere Diagramme</summary>");
   EXPECT_EQ(german("<h2>F_P of the slide [N]</h2>"), "<h2>F_P of the slide [N]</h2>");
   EXPECT_EQ(german("<script type=\"application/json\">{\"x_label\":\"frequency [Hz]\",\"y\":\"mode\"}</script>"),
