@@ -80,7 +80,8 @@ void apply_changes_of(const Variant &own, Variant &block)
 {
   if (own.changes.empty())
     return;
-  const SceneNode file  = std::filesystem::exists(own.path) ? Variant::of_file(own.path).root : SceneNode();
+  const auto      path  = std::filesystem::absolute(own.path).lexically_normal(); // as that of the block
+  const SceneNode file  = std::filesystem::exists(path) ? Variant::of_file(path.string()).root : SceneNode();
   const SceneNode other = block.root;
   for (const std::string &change : own.changes)
   {

@@ -58,6 +58,20 @@ TEST(LifeRun, AWeldAcrossTheStressHasItsHotSpot)
   EXPECT_NE(bar.summary().find("\"of\": \"top to tip\""), std::string::npos);
 }
 
+/// The first block inherits the force and changes with it; the second sets its own, below the cut-off.
+TEST(LifeRun, ChangesReachTheBlocksThatInheritTheirKeys)
+{
+  const Bar bar("life_changes");
+  bar.file("same.toml", "extends = 'bar_life.toml'\n");
+  bar.file("light.toml", "extends = 'bar_life.toml'\nparameters = { F = '0.5 MN' }\n");
+  expect_answer(bar.life("[[life.block]]\nscene = 'same.toml'\nrepetitions = 10\n[[life.block]]\nscene = 'light.toml'\n"
+                         "repetitions = 100\n",
+                         " --set parameters.F='1.5*(3.55 MN)'"),
+                0, {"Life of the frame"});
+  const double eleven = 11. * std::pow(1.5, 3) * damage;
+  EXPECT_NEAR(bar.number({"life", "damage"}), eleven, slow * eleven);
+}
+
 TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
 {
   const Bar  bar("life_bad");
