@@ -166,7 +166,7 @@ class Scene:
         return self._core.check()
 
     def describe(self) -> str:
-        """Summary of the scene: bodies, joints, elements, degrees of freedom, cost of a run."""
+        """Summary of the scene: bodies, joints, elements, DOFs, cost of a run."""
         return "\n".join(self._core.words())
 
     def run(self, signals=None, peaks=None, lean=False, sensitivities="", progress=None, **settings) -> Result:

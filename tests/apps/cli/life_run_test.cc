@@ -1,5 +1,6 @@
 // `gestell life` on a bar under a slow sine, whose stress is known: windows, blocks, welds and bad input.
 
+#include "tests/support/csv_table.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
@@ -21,6 +22,20 @@ public:
   {
     return gestell("life " + folder_.file("own.toml", "extends = 'bar_life.toml'\n" + more) + folder_.option() +
                    options);
+  }
+  /// A study of two forces: the damage of each.
+  std::vector<double> damage_of(const std::string &first, const std::string &second) const
+  {
+    expect_answer(gestell("study " +
+                          folder_.file("study.toml", "[scene]\nfile = 'bar_life.toml'\n[variables.F]\nkey = "
+                                                     "'parameters.F'\nfrom = '" +
+                                                         first + "'\nto = '" + second +
+                                                         "'\n[outputs]\ndamage = 'life.damage'\n"
+                                                         "[design]\ntype = 'full factorial'\nlevels = 2\n") +
+                          folder_.option()),
+                  0, {"2 runs made"});
+    const CsvTable runs((folder_.results() / "runs.csv").string());
+    return {runs.number(0, "damage"), runs.number(1, "damage")};
   }
   double      number(const std::vector<std::string> &path) const { return json_number(summary(), path); }
   std::string summary() const { return read(folder_.results() / "summary.json"); }
@@ -70,6 +85,13 @@ TEST(LifeRun, ChangesReachTheBlocksThatInheritTheirKeys)
                 0, {"Life of the frame"});
   const double eleven = 11. * std::pow(1.5, 3) * damage;
   EXPECT_NEAR(bar.number({"life", "damage"}), eleven, slow * eleven);
+}
+
+TEST(LifeRun, IsAnOutputOfStudies)
+{
+  const std::vector<double> found = Bar("life_study").damage_of("3.55 MN", "5.325 MN");
+  EXPECT_NEAR(found[0], damage, slow * damage);
+  EXPECT_NEAR(found[1], std::pow(1.5, 3) * damage, slow * std::pow(1.5, 3) * damage);
 }
 
 TEST(LifeRun, BadInputIsRefusedWithItsRemedy)

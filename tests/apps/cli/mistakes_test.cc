@@ -65,7 +65,8 @@ const std::vector<Mistake> of_the_press = {
     {"TorqueOnAMassThatDoesNotTurn",
      {{"[element.sheet]", "[element.shake]\ntype = \"force\"\nfrom = \"frame.crown\"\nabout = [0, 1, 0]\n"
                           "constant = \"1 N m\"\n[element.sheet]"}},
-     {"element.shake", "\"frame.crown\" does not rotate about [0, 1, 0]", "its DOFs on the frame: uz; name another DOF"}},
+     {"element.shake", "\"frame.crown\" does not rotate about [0, 1, 0]",
+      "its DOFs on the frame: uz; name another DOF"}},
     {"ProfileAcrossAMassThatIsHeld",
      {{"[element.sheet]", "[element.shake]\ntype = \"force profile\"\nfrom = \"frame.crown\"\ndirection = [1, 0, 0]\n"
                           "profile = \"10 N*sin(t/s)\"\n[element.sheet]"}},
@@ -244,6 +245,15 @@ TEST(DampingThatIsWanted, IsRefusedWithTheReasonWhereTheFrameCannotGiveIt)
   expect_answer(ask("2=0.5"), 2, {"even a ratio of 0.999", "the frame contributes too little to this mode"});
   expect_answer(ask("9=0.1"), 2, {"mode 9 does not exist; the machine has 2 modes"});
   expect_answer(ask("1"), 2, {"--damping-for 1: needs the number of a mode", "such as 3=0.02"});
+}
+
+/// Without dampers a mode has the ratio of the frame.
+TEST(DampingThatIsWanted, IsThatOfAFrameWithoutDampers)
+{
+  const Folder folder("wanted_damping");
+  expect_answer(gestell("modes " GESTELL_SOURCE_DIR "/apps/verification/scenes/bar_life.toml" + folder.option() +
+                        "--damping-for 1=0.05"),
+                0, {"With frame.damping.ratio = 0.05 mode 1", "has the damping ratio 0.05; without it, 0."});
 }
 
 // The file system says of such names neither that anything is there nor that nothing is.

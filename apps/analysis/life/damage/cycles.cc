@@ -27,7 +27,7 @@ void append_times(std::vector<Cycle> &cycles, double times, const Append &append
     cycles[k].count *= times;
 }
 
-/// Samples inside of a rise or a fall are left out: most are, and add() costs ten times as much as this.
+/// Samples within a rise or a fall are skipped: most are, and add() costs ten times as much as this.
 void add_turning_points(const double *history, const LoadBlock &block, Rainflow &rainflow)
 {
   std::int64_t i = block.first;
