@@ -1,6 +1,6 @@
 #include "apps/analysis/life/life_damage.h"
 
-#include "apps/analysis/life/damage/worst_points.h"
+#include "apps/analysis/life/damage/plane_search.h"
 #include "apps/analysis/life/life_rules.h"
 #include "apps/analysis/life/life_skin.h"
 #include "apps/analysis/life/weld_points.h"
@@ -227,6 +227,8 @@ std::vector<PointDamage> worst_of(const LifeGroup &group, const LifeLoad &load, 
   }
   const auto idle = [](const PointDamage &one) { return !(one.damage > 0.); };
   found.worst.erase(std::remove_if(found.worst.begin(), found.worst.end(), idle), found.worst.end());
+  for (PointDamage &one : found.worst)
+    one = on_worst_plane(*group.stress, load.states, load.sequence, rule, group.search, one);
   result.n_points += int(std::count(group.search.counts.begin(), group.search.counts.end(), 1));
   result.looked_at += found.looked_at;
   return found.worst;
@@ -372,7 +374,11 @@ double damage_at(const Scene &scene, const ReducedFrame &frame, const LifeLoad &
   for (const LifeGroup &group : groups_of(scene, frame, skin))
     if (const auto at = std::size_t(place.point); group.name == place.of && at < group.search.position.size())
       if ((group.search.position[at] - place.at).norm() <= here * skin.size)
-        return point_damage(*group.stress, load.states, load.sequence, group.rule, group.search, place.point).damage;
+      {
+        const PointDamage worst =
+            point_damage(*group.stress, load.states, load.sequence, group.rule, group.search, place.point);
+        return on_worst_plane(*group.stress, load.states, load.sequence, group.rule, group.search, worst).damage;
+      }
   throw std::runtime_error("the frame of an additional run has a different mesh, without this point");
 }
 

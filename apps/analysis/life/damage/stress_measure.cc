@@ -30,7 +30,7 @@ MeasureRows planes_across_surface(const Vector3d &normal)
   MeasureRows    rows(planes_of_turn, 6);
   for (int i = 0; i < planes_of_turn; ++i)
   {
-    const double   angle = i * 2. * right_angle / planes_of_turn;
+    const double   angle = i * step_of_planes;
     const Vector3d n     = std::cos(angle) * u + std::sin(angle) * v;
     rows.row(i)          = row_of(n, n);
   }
@@ -41,7 +41,7 @@ MeasureRows planes_across_surface(const Vector3d &normal)
 MeasureRows planes_of_hemisphere()
 {
   std::vector<Vector3d> normals;
-  const double          step  = 2. * right_angle / planes_of_turn;
+  const double          step  = step_of_planes;
   const int             rings = planes_of_turn / 2;
   for (int i = 0; i <= rings; ++i)
   {
@@ -72,6 +72,11 @@ MeasureRows measure_rows(StressMeasure measure, const SurfaceDirections &at)
     throw std::invalid_argument("the stress across or along a weld needs its direction and the normal of its surface; "
                                 "name the weld line, or use the critical plane.");
   return row_of(across.normalized(), measure == StressMeasure::normal ? across.normalized() : at.weld.normalized());
+}
+
+Eigen::Matrix<double, 1, 6> normal_stress_row(const Vector3d &n)
+{
+  return row_of(n, n);
 }
 
 Vector3d plane_normal(const Eigen::Matrix<double, 1, 6> &row)

@@ -57,6 +57,10 @@ using MeasureRows = Eigen::Matrix<double, Eigen::Dynamic, 6>;
  */
 MeasureRows measure_rows(StressMeasure measure, const SurfaceDirections &at);
 
+/// Between neighbouring planes of `critical_plane` [rad].
+constexpr double step_of_planes = 0.174532925199432958;
+/// Row of n.sigma.n.
+Eigen::Matrix<double, 1, 6> normal_stress_row(const Eigen::Vector3d &n);
 /// n of a row of `critical_plane`: row = (n_x^2, n_y^2, n_z^2, 2 n_x n_y, 2 n_y n_z, 2 n_x n_z).
 Eigen::Vector3d plane_normal(const Eigen::Matrix<double, 1, 6> &row);
 
