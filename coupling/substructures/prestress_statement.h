@@ -1,10 +1,13 @@
 #pragma once
 
+#include "fem/values/frame_matrices.h"
 #include "fem/values/number_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace gestell::coupling
 {
@@ -15,14 +18,26 @@ inline void require_below_buckling(double lambda, const std::string &place)
   if (!(lambda > 1.))
     throw std::invalid_argument((place.empty() ? "prestress" : place) +
                                 ": prestress beyond buckling: the frame buckles at " + rounded(lambda) +
-                                " times these loads; reduce them or their 'factor', or stiffen the frame");
+                                " times these loads, and needs more than 1; reduce them or their 'factor', or stiffen "
+                                "the frame");
 }
 
-/// @param where  "", or " with the interfaces fixed".
-inline std::string buckling_statement(double lambda, const std::string &where)
+enum class BucklingValue
 {
-  return std::isinf(lambda) ? "prestress: tension dominates, and the frame does not buckle" + where
-                            : "prestress: the buckling factor is " + rounded(lambda) + where;
+  exact,
+  upper_bound
+};
+
+/// Adds a buckling factor, infinite if tension dominates: a statement, and the least of them as a fact.
+/// @param where  "", or " with the interfaces fixed".
+inline void add_buckling(double lambda, BucklingValue value, const std::string &where,
+                         std::vector<std::string> &statements, fem::FrameFacts &facts)
+{
+  statements.push_back(std::isinf(lambda)
+                           ? "prestress: tension dominates, and the frame does not buckle" + where
+                           : std::string("prestress: the buckling factor is ") +
+                                 (value == BucklingValue::upper_bound ? "at most " : "") + rounded(lambda) + where);
+  (void)facts;
 }
 
 } // namespace gestell::coupling

@@ -98,16 +98,20 @@ FrameOfParts prestressed(FrameOfParts frame, const std::vector<ReducedFrame> &pa
 double buckling_bound(const FrameOfParts &frame, const std::vector<ReducedFrame> &parts, const FrameOfParts &stressed,
                       const std::vector<ReducedFrame> &stressed_parts)
 {
-  const auto [S, rigid]              = on_interfaces(frame, parts);
-  const MatrixXd             change  = on_interfaces(stressed, stressed_parts).S - S;
-  const Eigen::LLT<MatrixXd> L       = held(S, rigid).llt();
-  const MatrixXd             half    = L.matrixL().solve(change);
-  const MatrixXd             both    = L.matrixL().solve(MatrixXd(half.transpose()));
-  const double               kappa   = SymmetricEigenSolver(both).eigenvalues()[0];
-  constexpr double           nothing = 1e-12; // rounding of the difference
-  const double               lambda  = kappa < -nothing ? -1. / kappa : INFINITY;
+  const auto [S, rigid] = on_interfaces(frame, parts);
+  const double lambda   = dense_buckling_factor(held(S, rigid), on_interfaces(stressed, stressed_parts).S - S);
   require_below_buckling(lambda, frame.prestress->place);
   return lambda;
+}
+
+double dense_buckling_factor(const MatrixXd &S, const MatrixXd &K)
+{
+  const Eigen::LLT<MatrixXd> L       = S.llt();
+  const MatrixXd             half    = L.matrixL().solve(K);
+  const MatrixXd             both    = L.matrixL().solve(MatrixXd(half.transpose()));
+  const double               kappa   = SymmetricEigenSolver(both, WithVectors::no).eigenvalues()[0];
+  constexpr double           nothing = 1e-12; // rounding of the difference of two stiffnesses
+  return kappa < -nothing ? -1. / kappa : INFINITY;
 }
 
 } // namespace gestell::coupling

@@ -3,6 +3,8 @@
 #include "coupling/frame/reduced_frame.h"
 #include "coupling/substructures/frame_of_parts.h"
 
+#include <Eigen/Core>
+
 #include <vector>
 
 namespace gestell::coupling
@@ -35,5 +37,8 @@ FrameOfParts prestressed(FrameOfParts frame, const std::vector<ReducedFrame> &pa
  */
 double buckling_bound(const FrameOfParts &frame, const std::vector<ReducedFrame> &parts, const FrameOfParts &stressed,
                       const std::vector<ReducedFrame> &stressed_parts);
+
+/// Smallest positive lambda of  (S + lambda K) x = 0  with symmetric dense matrices, S positive definite; or infinite.
+double dense_buckling_factor(const Eigen::MatrixXd &S, const Eigen::MatrixXd &K);
 
 } // namespace gestell::coupling

@@ -8,7 +8,6 @@
 #include "coupling/substructures/placed_part.h"
 #include "coupling/substructures/prestress_statement.h"
 #include "coupling/substructures/prestressed_parts.h"
-#include "fem/values/number_text.h"
 
 #include <cmath>
 #include <string>
@@ -50,20 +49,20 @@ ReducedFrame reduced_frame_of_parts(const FrameOfParts &given, const ReductionOp
     return equal_parts_once(description, options,
                             [&](const FramePart &part) { return reduced_part(part, options, progress); });
   };
-  FrameOfParts             frame = given;
-  auto                     parts = reduced(frame);
-  std::vector<std::string> statements;
+  FrameOfParts frame    = given;
+  auto         parts    = reduced(frame);
+  double       buckling = INFINITY;
   if (given.prestress)
   {
-    frame                 = prestressed(given, parts);
-    auto         stressed = reduced(frame);
-    const double bound    = buckling_bound(given, parts, frame, stressed);
-    statements.push_back(std::isinf(bound) ? buckling_statement(bound, " by motions of its interfaces")
-                                           : "prestress: the buckling factor is at most " + rounded(bound));
-    parts = std::move(stressed);
+    frame         = prestressed(given, parts);
+    auto stressed = reduced(frame);
+    buckling      = buckling_bound(given, parts, frame, stressed);
+    parts         = std::move(stressed);
   }
   JoinedParts joined = join_parts(all_placed(std::move(parts), frame), frame);
-  joined.facts.statements.insert(joined.facts.statements.end(), statements.begin(), statements.end());
+  if (given.prestress)
+    add_buckling(buckling, BucklingValue::upper_bound, " by motions of the interfaces", joined.facts.statements,
+                 joined.facts.facts);
   return completed(frame_service().reduce(joined.matrices, joined_options(frame, joined, options),
                                           named_after("joined parts", progress)),
                    joined);

@@ -1,6 +1,7 @@
 #include "fem/assembly/cell_parts.h"
 
 #include "fem/assembly/elasticity.h"
+#include "fem/assembly/sparse_sum.h"
 
 #include <metis.h>
 
@@ -190,7 +191,15 @@ PartMatrices CellParts::matrices(int part) const
 {
   Extent     extent{cells_[part], coordinates(part)};
   MatrixSums sums = assemble(mesh_, materials_, affine_, extent);
+  if (const SparseMatrix K = geometric(part); K.nonZeros() > 0)
+    add(sums.C, K);
   return {std::move(sums.C), std::move(sums.M), std::move(extent.coordinates)};
+}
+
+SparseMatrix CellParts::geometric(int part) const
+{
+  return materials_.u0.size() > 0 ? assemble_geometric(mesh_, materials_, affine_, {cells_[part], coordinates(part)})
+                                  : SparseMatrix();
 }
 
 } // namespace gestell::fem

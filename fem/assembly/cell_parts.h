@@ -36,7 +36,8 @@ public:
   int              size() const { return int(cells_.size()); }
   int              n_coordinates() const { return affine_.n_coordinates(); }
   std::vector<int> coordinates(int part) const; ///< as PartMatrices::coordinates
-  PartMatrices     matrices(int part) const;
+  PartMatrices     matrices(int part) const;    ///< C with geometric()
+  SparseMatrix     geometric(int part) const;   ///< stiffness [n_p x n_p] under CellMaterials::u0, or empty
 
 private:
   const QuadraticMesh          &mesh_;

@@ -106,6 +106,22 @@ MatrixSums assemble(const QuadraticMesh &mesh, const CellMaterials &materials, c
       });
 }
 
+SparseMatrix assemble_geometric(const QuadraticMesh &mesh, const CellMaterials &materials,
+                                const AffineConstraints &affine, const Extent &extent)
+{
+  CellValues values(mesh, CellPoints::rule);
+  return affine
+      .sum(
+          extent, [&](int cell) { return nodes_of(mesh, cell); },
+          [&](int cell) -> CellMatrices
+          {
+            const PointValues &at = values.of(cell);
+            return {geometric_stiffness(at, materials[cell], materials.u0(Eigen::all, nodes_of(mesh, cell))),
+                    Eigen::MatrixXd::Zero(at.N.rows(), at.N.rows())};
+          })
+      .C;
+}
+
 Extent whole(const QuadraticMesh &mesh, const AffineConstraints &affine)
 {
   return {up_to(mesh.n_cells()), up_to(affine.n_coordinates())};

@@ -45,4 +45,8 @@ MatrixSums assemble(const QuadraticMesh &mesh, const CellMaterials &materials, c
                     const Extent &extent);
 Extent     whole(const QuadraticMesh &mesh, const AffineConstraints &affine);
 
+/// Sum of geometric_stiffness() under CellMaterials::u0.
+SparseMatrix assemble_geometric(const QuadraticMesh &mesh, const CellMaterials &materials,
+                                const AffineConstraints &affine, const Extent &extent);
+
 } // namespace gestell::fem

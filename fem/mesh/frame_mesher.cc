@@ -117,6 +117,13 @@ double expected_averaged(const MeshedModel &result, const FrameSpecification &sp
   return n;
 }
 
+/// Of its reduction.
+double memory_of(const FrameSpecification &specification, double n_coordinates, double kappa, double n_averaged)
+{
+  return reduction_memory(n_coordinates, kappa, n_averaged) +
+         (specification.prestress ? prestress_memory(n_coordinates) : 0.);
+}
+
 /// Refuses a mesh whose frame would not fit into the memory, before it is made.
 void judge_memory(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options)
 {
@@ -129,7 +136,8 @@ void judge_memory(MeshedModel &result, const FrameSpecification &specification, 
   const double averaged  = expected_averaged(result, specification, sizes, options.size);
   const auto   memory    = [&](double cells) // nodes of a surface grow like cells^(2/3)
   {
-    return reduction_memory(coordinates_of(cells), kappa, averaged * std::pow(cells / result.expected_cells, 2. / 3.));
+    return memory_of(specification, coordinates_of(cells), kappa,
+                     averaged * std::pow(cells / result.expected_cells, 2. / 3.));
   };
   double fitting = result.expected_cells;
   while (fitting > 1000. && memory(fitting) > available)
@@ -153,9 +161,10 @@ void judge_memory(const MeshedModel &result, const FrameSpecification &specifica
     for (const int surface : result.extracted.skin_surface)
       if (is_on(result.selection, name, surface))
         averaged += 2.; // nodes to a triangle
-  require_memory(specification.cad + " has " + text(n) + " DOFs",
-                 reduction_memory(n, compactness(result.model.volume(), skin_area(result.model.faces)), averaged),
-                 available_memory(), specification.mesh.place, "Give a coarser mesh, or a computer with more memory.");
+  require_memory(
+      specification.cad + " has " + text(n) + " DOFs",
+      memory_of(specification, n, compactness(result.model.volume(), skin_area(result.model.faces)), averaged),
+      available_memory(), specification.mesh.place, "Give a coarser mesh, or a computer with more memory.");
 }
 
 /// Notes what forces elements far smaller than the size.

@@ -21,6 +21,12 @@ double reduction_memory(double n_coordinates, double kappa, double n_averaged)
   return (0.22 + 0.37 * n + 3.8 * kappa * n * std::cbrt(n)) * gib + of_averaged * n_averaged;
 }
 
+double prestress_memory(double n_coordinates)
+{
+  constexpr double bytes = 0.2 * 1024. * 1024. * 1024. / 1e5; // for a DOF
+  return bytes * n_coordinates;
+}
+
 double nodes_on(double area, double size)
 {
   return 2. * area / (std::sqrt(0.1875) * size * size); // of equilateral triangles

@@ -249,7 +249,13 @@ Discretisation discretise(const Mesh &mesh, const FrameSpecification &specificat
     const PrestressLoads loads = prestress_loads(*prestress, specification.masses, mesh, quadratic, materials, nodes);
     load                       = affine.gather(loads.on_nodes) + loads.on_masses(affine.n_coordinates());
     if (q0.size() > 0)
-      geometric = geometric_stiffness(quadratic, materials, affine, coupled, nodes, loads);
+    {
+      const int n = affine.n_coordinates();
+      geometric   = cells == CellSums::of_frame
+                        ? assemble_geometric(quadratic, materials, affine, whole(quadratic, affine))
+                        : SparseMatrix(n, n);
+      add(geometric, stiffness_of_turns(quadratic, materials, n, coupled, nodes, loads));
+    }
   }
   add_matrices({specification, quadratic, materials, supports, affine, nodes, geometric}, cells, frame);
 
@@ -283,9 +289,10 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   return discretise(mesh, specification, CellSums::of_frame, q0);
 }
 
-Discretisation discretise_for_parts(const Mesh &mesh, const FrameSpecification &specification)
+Discretisation discretise_for_parts(const Mesh &mesh, const FrameSpecification &specification,
+                                    const Eigen::VectorXd &q0)
 {
-  return discretise(mesh, specification, CellSums::of_parts);
+  return discretise(mesh, specification, CellSums::of_parts, q0);
 }
 
 } // namespace gestell::fem

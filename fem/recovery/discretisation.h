@@ -45,7 +45,8 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
                                           const Eigen::VectorXd &q0 = {});
 
 /// The same without the sums over cells, which MeshError::parts() makes part by part: M, B and C are those of attached
-/// masses and of foundations.
-Discretisation discretise_for_parts(const Mesh &mesh, const FrameSpecification &specification);
+/// masses, of foundations and of stiffness_of_turns().
+Discretisation discretise_for_parts(const Mesh &mesh, const FrameSpecification &specification,
+                                    const Eigen::VectorXd &q0 = {});
 
 } // namespace gestell::fem

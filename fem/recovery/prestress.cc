@@ -3,7 +3,6 @@
 #include "fem/assembly/attached_masses.h"
 #include "fem/assembly/elasticity.h"
 #include "fem/assembly/mass_integrals.h"
-#include "fem/assembly/sparse_sum.h"
 
 #include <Eigen/Geometry>
 
@@ -55,30 +54,6 @@ bool turns(const CoupledPatch &patch)
   return patch.specification.coupling != InterfaceCoupling::node;
 }
 
-/// K of faces that turn with their nodes and of weights on arms.
-Eigen::SparseMatrix<double> turned_faces(const QuadraticMesh &mesh, const CellMaterials &materials, int n,
-                                         const std::vector<CoupledPatch> &coupled, const std::vector<Interface> &nodes,
-                                         const PrestressLoads &loads)
-{
-  std::vector<char> marked(mesh.n_nodes(), 0);
-  for (const CoupledPatch &patch : coupled)
-    if (turns(patch))
-      for (const int node : patch.patch.nodes)
-        marked[node] = 1;
-  const Eigen::Matrix3Xd c =
-      cell_forces(mesh, materials, marked) - loads.on_nodes.reshaped(3, Eigen::Index(mesh.n_nodes()));
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t k = 0; k < coupled.size(); ++k)
-    if (turns(coupled[k]))
-      for (const int node : coupled[k].patch.nodes)
-        add_turn(nodes[k], c.col(node), mapped(mesh.points[node]) - coupled[k].position, entries);
-  for (const auto &[node, force, arm] : loads.weights)
-    add_turn(*node, -force, arm, entries);
-  Eigen::SparseMatrix<double> K(n, n);
-  K.setFromTriplets(entries.begin(), entries.end());
-  return K;
-}
-
 } // namespace
 
 Eigen::VectorXd PrestressLoads::on_masses(int n) const
@@ -117,21 +92,26 @@ PrestressLoads prestress_loads(const Prestress &prestress, const std::vector<Att
   return result;
 }
 
-SparseMatrix geometric_stiffness(const QuadraticMesh &mesh, const CellMaterials &materials,
-                                 const AffineConstraints &affine, const std::vector<CoupledPatch> &coupled,
-                                 const std::vector<Interface> &nodes, const PrestressLoads &loads)
+Eigen::SparseMatrix<double> stiffness_of_turns(const QuadraticMesh &mesh, const CellMaterials &materials, int n,
+                                               const std::vector<CoupledPatch> &coupled,
+                                               const std::vector<Interface> &nodes, const PrestressLoads &loads)
 {
-  const auto nodes_of = [&](int cell)
-  { return std::vector<int>(mesh.nodes(cell), mesh.nodes(cell) + mesh.n_nodes_of(cell)); };
-  CellValues values(mesh, CellPoints::rule);
-  const auto of_cell = [&](int cell) -> CellMatrices
-  {
-    const PointValues &at = values.of(cell);
-    return {geometric_stiffness(at, materials[cell], materials.u0(Eigen::all, nodes_of(cell))),
-            Eigen::MatrixXd::Zero(at.N.rows(), at.N.rows())};
-  };
-  SparseMatrix K = affine.sum(whole(mesh, affine), nodes_of, of_cell).C;
-  add(K, turned_faces(mesh, materials, affine.n_coordinates(), coupled, nodes, loads));
+  std::vector<char> marked(mesh.n_nodes(), 0);
+  for (const CoupledPatch &patch : coupled)
+    if (turns(patch))
+      for (const int node : patch.patch.nodes)
+        marked[node] = 1;
+  const Eigen::Matrix3Xd c =
+      cell_forces(mesh, materials, marked) - loads.on_nodes.reshaped(3, Eigen::Index(mesh.n_nodes()));
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < coupled.size(); ++k)
+    if (turns(coupled[k]))
+      for (const int node : coupled[k].patch.nodes)
+        add_turn(nodes[k], c.col(node), mapped(mesh.points[node]) - coupled[k].position, entries);
+  for (const auto &[node, force, arm] : loads.weights)
+    add_turn(*node, -force, arm, entries);
+  Eigen::SparseMatrix<double> K(n, n);
+  K.setFromTriplets(entries.begin(), entries.end());
   return K;
 }
 

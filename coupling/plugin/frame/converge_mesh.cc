@@ -356,7 +356,10 @@ private:
   double fitting() const
   {
     const auto memory = [&](double n)
-    { return fem::reduction_memory(n, compactness_, n_averaged_ * std::pow(n / n_first_, 2. / 3.)); };
+    {
+      return fem::reduction_memory(n, compactness_, n_averaged_ * std::pow(n / n_first_, 2. / 3.)) +
+             (specification_.prestress ? fem::prestress_memory(n) : 0.);
+    };
     double n = options_.max_coordinates;
     while (n > n_first_ && memory(n) > available())
       n *= 0.95;

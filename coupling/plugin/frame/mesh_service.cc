@@ -139,6 +139,7 @@ MeshService::Unreduced assemble(const fem::Mesh &mesh, const fem::FrameSpecifica
 {
   fem::Discretisation discretisation = discretised(mesh, frame, options.factor, progress);
   fem::FrameMatrices &matrices       = discretisation.matrices;
+  discretisation.geometric           = fem::SparseMatrix();
   keeps                              = keeps || may_be_raised(*discretisation.mesh_error, double(matrices.M.rows()));
   ReducedModel reduced               = reduce_with_basis(matrices, options, progress, keeps ? nullptr : &matrices);
   if (const auto &D = discretisation.balance; D.size() > 0)
@@ -188,18 +189,28 @@ public:
       progress("assembly", -1.);
     if (frame.parts == 1)
       return coupling::assemble(mesh, frame, options, progress, false).reduced;
-    fem::Discretisation             discretisation = fem::discretise_for_parts(mesh, frame);
-    const std::optional<PartedMesh> parted         = parts_of(discretisation, mesh, frame);
+    fem::Discretisation       discretisation = fem::discretise_for_parts(mesh, frame);
+    std::optional<PartedMesh> parted         = parts_of(discretisation, mesh, frame);
     if (!parted)
       return coupling::assemble(mesh, frame, options, progress, false).reduced;
     if (const int ranks = ranks_of_factors().size(); ranks > 1)
       std::cerr << "gestell: ranks without work while the parts are reduced: " + std::to_string(ranks - 1) + " of " +
                        std::to_string(ranks) + '\n';
     use_blas_threads(1); // processes side by side instead: equal results for any number of them
-    const double fitting      = std::max(1., fem::available_memory() / parted->memory.part);
-    ReducedModel reduced      = reduce_in_parts(discretisation.matrices, parted->parts, options,
-                                                {frame.rayleigh_mass, frame.rayleigh_stiffness, frame.place,
-                                                 int(std::min(fitting, double(jobs_requested()))), progress});
+    const double fitting = std::max(1., fem::available_memory() / parted->memory.part);
+    PartsCall    call{frame.rayleigh_mass, frame.rayleigh_stiffness, frame.place,
+                   int(std::min(fitting, double(jobs_requested()))), progress};
+    if (frame.prestress)
+    {
+      call.prestress      = frame.prestress->place.empty() ? "prestress" : frame.prestress->place;
+      const int n_parts   = parted->parts.size();
+      discretisation      = discretised_in_parts(discretisation, parted->parts, mesh, frame, call);
+      const auto of_parts = parted->memory;
+      parted.emplace(PartedMesh{discretisation.mesh_error->parts(n_parts, frame.place), of_parts});
+    }
+    ReducedModel reduced = reduce_in_parts(discretisation.matrices, parted->parts, options, call);
+    if (frame.prestress)
+      add_buckling_bound(reduced, discretisation, parted->parts, call.prestress);
     discretisation.matrices.C = fem::SparseMatrix();
     add_mesh_statement(reduced, discretisation, mesh, progress);
     return std::move(reduced.frame);

@@ -97,6 +97,10 @@ Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const
   {
     return {};
   }
+  catch (const NotPositiveDefinite &)
+  {
+    return Eigen::VectorXd::Constant(count, INFINITY); // a prestressed frame that buckles in softer elements
+  }
   Eigen::VectorXd error(count);
   for (int j = 0; j < count; ++j)
     error[j] = error_by_raising(modes.omega[modes.n_rigid + j], raised[j]);

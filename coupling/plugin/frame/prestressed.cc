@@ -3,6 +3,7 @@
 #include "coupling/eigensolvers/slepc/buckling.h"
 #include "coupling/factors/make_factor.h"
 #include "coupling/substructures/prestress_statement.h"
+#include "coupling/substructures/prestressed_parts.h"
 #include "fem/assembly/rigid_body_modes.h"
 #include "fem/assembly/rigid_motions.h"
 #include "fem/assembly/sparse_sum.h"
@@ -27,6 +28,12 @@ using Eigen::VectorXd;
 [[noreturn]] void refuse(const fem::Prestress &prestress, const std::string &message)
 {
   throw std::invalid_argument((prestress.place.empty() ? "prestress" : prestress.place) + ": " + message);
+}
+
+void require_loads(const fem::Discretisation &linear, const fem::Prestress &prestress)
+{
+  if (linear.prestress_load.isZero(0.))
+    refuse(prestress, "its loads are zero; give the scene a 'gravity', or a load a 'force' or a 'pressure'");
 }
 
 /// Solutions with the stiffness of the frame, held coordinates fixed.
@@ -105,22 +112,52 @@ fem::Discretisation discretised(const fem::Mesh &mesh, const fem::FrameSpecifica
     progress("prestress", -1.);
   const bool             is_part = !prestress.interface_motion.empty();
   const std::vector<int> held    = is_part ? linear.matrices.interface_coordinates() : std::vector<int>();
-  if (!is_part && linear.prestress_load.isZero(0.))
-    refuse(prestress, "its loads are zero; give the scene a 'gravity', or a load a 'force' or a 'pressure'");
-  const auto          C_inverse = factor_of(linear.matrices, held, prestress, factor);
-  const VectorXd      q0        = static_deflection(*C_inverse, linear, held, prestress.interface_motion);
-  fem::Discretisation stressed  = fem::discretise_with_mesh_error(mesh, specification, q0);
-  const auto          inverse   = std::make_shared<InverseByColumns>(
+  if (!is_part)
+    require_loads(linear, prestress);
+  const auto     C_inverse     = factor_of(linear.matrices, held, prestress, factor);
+  const VectorXd q0            = static_deflection(*C_inverse, linear, held, prestress.interface_motion);
+  linear.matrices.M            = fem::SparseMatrix(); // room for the second discretisation
+  linear.matrices.B            = fem::SparseMatrix();
+  linear.matrices.stress       = {};
+  linear.mesh_error            = {};
+  fem::Discretisation stressed = fem::discretise_with_mesh_error(mesh, specification, q0);
+  const auto          inverse  = std::make_shared<InverseByColumns>(
       int(q0.size()), [&](Eigen::Ref<MatrixXd> X) { C_inverse->solve_in_place(X); }, held);
   const double lambda = buckling_factor(inverse, linear.matrices.C, stressed.geometric);
   require_below_buckling(lambda, prestress.place);
-  stressed.matrices.statements.push_back(buckling_statement(lambda, is_part ? " with the interfaces fixed" : ""));
+  add_buckling(lambda, BucklingValue::exact, is_part ? " with the interfaces fixed" : "", stressed.matrices.statements,
+               stressed.matrices.facts);
   if (is_part)
   {
     stressed.balance = balance_of(*C_inverse, linear.matrices, stressed.geometric, held);
     fem::add(stressed.matrices.C, at(held, stressed.balance, q0.size()));
   }
   return stressed;
+}
+
+fem::Discretisation discretised_in_parts(const fem::Discretisation &linear, const fem::CellParts &parts,
+                                         const fem::Mesh &mesh, const fem::FrameSpecification &specification,
+                                         const PartsCall &call)
+{
+  require_loads(linear, *specification.prestress);
+  return fem::discretise_for_parts(mesh, specification,
+                                   deflection_in_parts(linear.matrices, parts, linear.prestress_load, call));
+}
+
+void add_buckling_bound(ReducedModel &reduced, const fem::Discretisation &frame, const fem::CellParts &parts,
+                        const std::string &place)
+{
+  const MatrixXd &T = reduced.basis.T;
+  MatrixXd        K = T.transpose() * (frame.geometric * T);
+  for (int p = 0; p < parts.size(); ++p)
+  {
+    const MatrixXd own = T(parts.coordinates(p), Eigen::all);
+    K += own.transpose() * (parts.geometric(p) * own);
+  }
+  const double lambda = dense_buckling_factor(reduced.frame.C - K, K);
+  require_below_buckling(lambda, place);
+  add_buckling(lambda, BucklingValue::upper_bound, " in the reduced DOFs", reduced.frame.statements,
+               reduced.frame.facts);
 }
 
 } // namespace gestell::coupling

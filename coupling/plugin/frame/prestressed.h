@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/frame/reduction_options.h"
+#include "coupling/reduction/parts/parted_frame.h"
 #include "fem/recovery/discretisation.h"
 
 #include <string>
@@ -28,5 +29,16 @@ namespace gestell::coupling
  */
 fem::Discretisation discretised(const fem::Mesh &mesh, const fem::FrameSpecification &specification,
                                 const std::string &factor, const Progress &progress);
+
+/// The same of a frame in parts, without its sums over cells; C and M of its parts follow from its mesh_error.
+/// @param linear, parts  without prestress.
+fem::Discretisation discretised_in_parts(const fem::Discretisation &linear, const fem::CellParts &parts,
+                                         const fem::Mesh &mesh, const fem::FrameSpecification &specification,
+                                         const PartsCall &call);
+
+/// Adds the buckling factor of a frame in parts: that of its reduced coordinates, an upper bound (Rayleigh, Ritz).
+/// @param frame, parts  about the prestressed state.
+void add_buckling_bound(ReducedModel &reduced, const fem::Discretisation &frame, const fem::CellParts &parts,
+                        const std::string &place);
 
 } // namespace gestell::coupling

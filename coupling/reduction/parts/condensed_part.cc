@@ -38,6 +38,10 @@ SparseCholesky factor_of(const PartOfFrame &part)
   catch (const NotPositiveDefinite &)
   {
   }
+  if (!part.prestress.empty())
+    throw std::invalid_argument(part.prestress + ": prestress beyond buckling: " + part.name +
+                                " buckles with its interface fixed, so the frame buckles at less than 1 times these "
+                                "loads; reduce them or their 'factor', or stiffen the frame");
   throw std::invalid_argument("parts: " + part.name +
                               " moves freely although its interface is fixed; a frame of unconnected bodies without "
                               "supports cannot be cut into parts; remove 'parts'");
@@ -94,7 +98,7 @@ std::vector<int> places_of(const std::vector<int> &held, Index n)
   return place;
 }
 
-void hold(MatrixXd &X, const std::vector<int> &held)
+void hold(Eigen::Ref<MatrixXd> X, const std::vector<int> &held)
 {
   for (const int i : held)
     X.row(i).setZero();
@@ -337,6 +341,29 @@ RecoveredPart recover(PartOfFrame part, const CondensedPart &condensed, const Ma
   factor.solve_in_place(deflection);
   result.beyond += deflection - condensed.V * kept;
   return result;
+}
+
+StaticPart condense_statics(const PartOfFrame &part, VectorXd f)
+{
+  const Sparse C_1 = columns_of(part.sums.C, part.held);
+  StaticPart   result;
+  hold(f, part.held);
+  SparseCholesky factor = factor_of(part);
+  factor.solve_in_place(f);
+  factor.release();
+  result.load              = -(C_1.transpose() * f);
+  const FrontSelection all = with_border(factor.fronts(), part.sums.C, part.held);
+  result.C                 = condensed(all, part, part.sums.C, 0.);
+  return result;
+}
+
+VectorXd recover_statics(const PartOfFrame &part, VectorXd f, const VectorXd &q1)
+{
+  f -= columns_of(part.sums.C, part.held) * q1;
+  hold(f, part.held);
+  factor_of(part).solve_in_place(f);
+  f(part.held) = q1;
+  return f;
 }
 
 } // namespace gestell::coupling

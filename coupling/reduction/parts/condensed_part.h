@@ -19,9 +19,10 @@ struct PartOfFrame
   /// [n_p x n_p] damping that differs from alpha M + beta C: foundations, less the share of Rayleigh that they and
   /// masses do not have.
   fem::SparseMatrix damping;
-  Eigen::MatrixXd   load; // [n_p x 3] of a unit acceleration
-  std::vector<int>  held; ///< interface: coordinates of other parts or of the mechanism, ascending
-  std::string       name; ///< "part 2 of 3", for messages
+  Eigen::MatrixXd   load;      // [n_p x 3] of a unit acceleration
+  std::vector<int>  held;      ///< interface: coordinates of other parts or of the mechanism, ascending
+  std::string       name;      ///< "part 2 of 3", for messages
+  std::string       prestress; ///< place of the loads that sums.C is about, or empty
   /// Assembles sums.C again, which makes room for other memory meanwhile.
   std::function<fem::SparseMatrix()> stiffness;
 };
@@ -66,5 +67,16 @@ struct RecoveredPart
 /// @param modes   [k x p] modes of the frame in its reduced coordinates.
 RecoveredPart recover(PartOfFrame part, const CondensedPart &condensed, const Eigen::MatrixXd &X,
                       const Eigen::MatrixXd &beyond, const Eigen::MatrixXd &modes);
+
+/// A part under static loads f, its interior in equilibrium:  C* q_1 = f* + reactions.
+struct StaticPart
+{
+  Eigen::MatrixXd C;    // [n1 x n1], lower triangle: C11 - C12 C22^-1 C21
+  Eigen::VectorXd load; // [n1]  -C12 C22^-1 f2
+};
+
+/// @param f  [n_p] of which only the interior counts: loads on the interface belong to no part.
+StaticPart      condense_statics(const PartOfFrame &part, Eigen::VectorXd f);
+Eigen::VectorXd recover_statics(const PartOfFrame &part, Eigen::VectorXd f, const Eigen::VectorXd &q1);
 
 } // namespace gestell::coupling

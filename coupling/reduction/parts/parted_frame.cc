@@ -1,39 +1,50 @@
 #include "coupling/reduction/parts/parted_frame.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "coupling/algebra/sparse_cholesky.h"
 #include "coupling/reduction/mode_ratios.h"
 #include "coupling/reduction/parts/condensed_part.h"
+#include "coupling/reduction/parts/cut_frame.h"
 #include "coupling/reduction/parts/part_file.h"
 #include "coupling/reduction/parts/part_interface.h"
 #include "coupling/reduction/projection.h"
 #include "fem/mesh/memory_estimate.h"
-#include "fem/process/side_by_side.h"
+#include "fem/values/available_memory.h"
 #include "fem/values/number_text.h"
 #include "fem/values/temporary_directory.h"
 #include "fem/values/two_pi.h"
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <stdexcept>
 
 namespace gestell::coupling
 {
 
+template <typename Archive, typename Matrix>
+void exchange_matrix(Archive &archive, Matrix &A)
+{
+  std::array<Eigen::Index, 2> size{{A.rows(), A.cols()}};
+  archive(size);
+  A.resize(size[0], size[1]);
+  archive.run(A.data(), std::size_t(A.size()));
+}
+
 template <typename Archive>
 void exchange(Archive &archive, RecoveredPart &value)
 {
   auto &[T, beyond, left_out] = value;
-  const auto one              = [&](auto &A)
-  {
-    std::array<Eigen::Index, 2> size{{A.rows(), A.cols()}};
-    archive(size);
-    A.resize(size[0], size[1]);
-    archive.run(A.data(), std::size_t(A.size()));
-  };
-  one(T);
-  one(beyond);
-  one(left_out);
+  exchange_matrix(archive, T);
+  exchange_matrix(archive, beyond);
+  exchange_matrix(archive, left_out);
+}
+
+template <typename Archive>
+void exchange(Archive &archive, StaticPart &value)
+{
+  auto &[C, load] = value;
+  exchange_matrix(archive, C);
+  exchange_matrix(archive, load);
 }
 
 namespace
@@ -42,54 +53,6 @@ namespace
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Sparse = Eigen::SparseMatrix<double>;
-
-/// A cut frame and the parts of its matrices.
-class CutFrame
-{
-public:
-  CutFrame(const fem::FrameMatrices &frame, const fem::CellParts &parts, double alpha, double beta)
-      : frame_(frame), parts_(parts), interface_(parts, frame.interface_coordinates())
-  {
-    damping_ = frame.B;
-    if (alpha > 0.)
-      damping_ = Sparse(damping_ - alpha * frame.M);
-    if (beta > 0.)
-      damping_ = Sparse(damping_ - beta * frame.C);
-  }
-
-  int                  size() const { return parts_.size(); }
-  std::vector<int>     coordinates(int p) const { return parts_.coordinates(p); }
-  const PartInterface &interface() const { return interface_; }
-  std::string          name(int p) const { return "part " + std::to_string(p + 1) + " of " + std::to_string(size()); }
-
-  PartOfFrame part(int p) const
-  {
-    PartOfFrame part;
-    part.sums      = sums(p);
-    part.stiffness = [this, p] { return std::move(sums(p).C); };
-    part.name      = name(p);
-    part.damping   = interface_.share(damping_, p, part.sums.coordinates);
-    part.held      = interface_.held(part.sums.coordinates);
-    part.load      = frame_.acceleration_load(part.sums.coordinates, Eigen::all);
-    return part;
-  }
-
-private:
-  fem::PartMatrices sums(int p) const
-  {
-    fem::PartMatrices sums = parts_.matrices(p);
-    for (const auto &[own, of_frame] : {std::pair(&sums.C, &frame_.C), std::pair(&sums.M, &frame_.M)})
-      if (of_frame->nonZeros() > 0)
-        *own = Sparse(*own + interface_.share(*of_frame, p, sums.coordinates));
-    return sums;
-  }
-
-  const fem::FrameMatrices &frame_;
-  const fem::CellParts     &parts_;
-  PartInterface             interface_;
-  Sparse                    damping_; // beside alpha M + beta C
-};
 
 /// Modes to retain of every part: at least as many as of the frame, and those below twice the frequency of interest.
 PartModes modes_of_parts(const ReductionOptions &options)
@@ -97,34 +60,6 @@ PartModes modes_of_parts(const ReductionOptions &options)
   constexpr double reach       = 2.;
   constexpr int    least_modes = 40; // the fixed-interface modes of a part lie above as many of the frame
   return {std::max(least_modes, options.n_modes), reach * options.frequency};
-}
-
-/// Calls work(p) for every part in a process of its own, whose memory goes back to the system.
-template <typename Value, typename Work, typename Take>
-void for_each_part(const CutFrame &cut, const PartsCall &call, const std::string &phase, const Work &work,
-                   const Take &take)
-{
-  std::mutex mutex;
-  const int  at_once = fem::in_one_process() ? 1 : std::min(call.at_once, cut.size());
-  fem::side_by_side(cut.size(), at_once, call.progress,
-                    [&](int p, const Progress &progress)
-                    {
-                      fem::ChildTask task;
-                      task.head                               = call.place;
-                      task.phase                              = "start";
-                      task.alone                              = !fem::in_one_process();
-                      task.library                            = "the reduction";
-                      task.way_out                            = "use more parts, or a larger mesh.size";
-                      Value                             value = fem::in_child<Value>(task, progress,
-                                                         [&](const Progress &report)
-                                                         {
-                                                           if (report)
-                                                             report(phase + cut.name(p), -1.);
-                                                           return work(p);
-                                                         });
-                      const std::lock_guard<std::mutex> alone(mutex);
-                      take(p, std::move(value));
-                    });
 }
 
 bool has_measured_shapes(const fem::ModalRatios &ratios)
@@ -297,12 +232,44 @@ ReducedModel completed(ReducedModel reduced, const fem::FrameMatrices &frame, Re
   return {std::move(known), std::move(basis), std::move(recovered.beyond), std::move(reduced.factor)};
 }
 
+/// x <- C^-1 x
+void solve_supported(const Eigen::SparseMatrix<double> &C, VectorXd &x, const PartsCall &call)
+{
+  constexpr double regular_pivots = 1e-13; // ratio of pivots: below it C is singular up to rounding
+  try
+  {
+    const SparseCholesky factor(C, {}, fem::available_memory());
+    if (factor.pivot_ratio() > regular_pivots)
+      return factor.solve_in_place(x);
+  }
+  catch (const NotPositiveDefinite &)
+  {
+  }
+  throw std::invalid_argument(call.prestress + ": the supports leave the frame free to move, so its loads have no "
+                                               "static equilibrium; add a support");
+}
+
+/// Prestressed parts are stable with their interface fixed, and so must be the frame.
+void require_stable(const Eigen::SparseMatrix<double> &C, const PartsCall &call)
+{
+  try
+  {
+    const SparseCholesky factor(C, {}, fem::available_memory());
+  }
+  catch (const NotPositiveDefinite &)
+  {
+    throw std::invalid_argument(call.prestress +
+                                ": prestress beyond buckling: the frame buckles at less than 1 times these loads; "
+                                "reduce them or their 'factor', or stiffen the frame");
+  }
+}
+
 } // namespace
 
 ReducedModel reduce_in_parts(const fem::FrameMatrices &frame, const fem::CellParts &parts,
                              const ReductionOptions &options, const PartsCall &call)
 {
-  const CutFrame cut(frame, parts, call.alpha, call.beta);
+  const CutFrame cut(frame, parts, call);
   const int      n = int(frame.M.rows()), n1 = cut.interface().size();
   int            least = n; // DOFs within a part
   for (int p = 0; p < cut.size(); ++p)
@@ -312,15 +279,56 @@ ReducedModel reduce_in_parts(const fem::FrameMatrices &frame, const fem::CellPar
                                 std::to_string(n - n1) + " DOFs within the parts and makes " + std::to_string(n1) +
                                 " interface DOFs between them; use fewer parts, or parts = \"auto\"");
   const fem::TemporaryDirectory folder; // unless the cache takes the parts
-  Joined                        joined    = condense_all(cut, call, options, folder.path().string());
-  ReducedModel                  reduced   = reduce_with_basis(join(cut, frame, call, joined), options, call.progress);
-  const DenseModes              modes     = modes_of_interest(reduced.frame);
-  Recovered                     recovered = recover_all(cut, call, joined, reduced, modes.V, n);
+  Joined                        joined   = condense_all(cut, call, options, folder.path().string());
+  const fem::FrameMatrices      matrices = join(cut, frame, call, joined);
+  if (!call.prestress.empty())
+    require_stable(matrices.C, call);
+  ReducedModel     reduced   = reduce_with_basis(matrices, options, call.progress);
+  const DenseModes modes     = modes_of_interest(reduced.frame);
+  Recovered        recovered = recover_all(cut, call, joined, reduced, modes.V, n);
   reduced.frame.statements.push_back(statement_of(modes, joined, recovered, cut.interface()));
   ReducedModel whole = completed(std::move(reduced), frame, std::move(recovered));
   if (has_measured_shapes(frame.modal_damping_ratio))
     add_modal_damping(whole.frame, frame.modal_damping_ratio);
   return whole;
+}
+
+VectorXd deflection_in_parts(const fem::FrameMatrices &frame, const fem::CellParts &parts, const VectorXd &f,
+                             const PartsCall &call)
+{
+  const CutFrame                cut(frame, parts, call);
+  const PartInterface          &interface = cut.interface();
+  const int                     n1        = interface.size();
+  std::vector<std::vector<int>> places;
+  for (int p = 0; p < cut.size(); ++p)
+    places.push_back(interface.places(cut.coordinates(p), n1, 0));
+  JoinedSums sums(interface, std::vector<int>(std::size_t(cut.size()), n1), n1);
+  VectorXd   q1 = f(interface.coordinates());
+  for_each_part<StaticPart>(
+      cut, call, "deflection of ", [&](int p) { return condense_statics(cut.part(p), f(cut.coordinates(p))); },
+      [&](int p, StaticPart part)
+      {
+        CondensedPart own;
+        own.C = std::move(part.C);
+        own.M = MatrixXd::Zero(own.C.rows(), own.C.cols());
+        sums.add(own, places[std::size_t(p)]);
+        q1(places[std::size_t(p)]) += part.load;
+      });
+  fem::FrameMatrices joined;
+  sums.give(joined, 0., 0.);
+  solve_supported(joined.C, q1, call);
+
+  VectorXd q = VectorXd::Zero(f.size());
+  for_each_part<std::vector<double>>(
+      cut, call, "fields of ",
+      [&](int p)
+      {
+        const VectorXd own = recover_statics(cut.part(p), f(cut.coordinates(p)), q1(places[std::size_t(p)]));
+        return std::vector<double>(own.begin(), own.end());
+      },
+      [&](int p, const std::vector<double> &own)
+      { q(cut.coordinates(p)) = VectorXd::Map(own.data(), Index(own.size())); });
+  return q;
 }
 
 PartsMemory memory_of_parts(const fem::CellParts &parts, const fem::FrameMatrices &frame, double compactness)

@@ -17,6 +17,7 @@ struct PartsCall
   std::string place;                 ///< prefix of messages, "press.toml:12: frame"
   int         at_once = 1;           ///< parts side by side
   Progress    progress{};
+  std::string prestress{}; ///< place of the loads that the frame is about, or empty
 };
 
 /**
@@ -28,13 +29,22 @@ struct PartsCall
  * truncated modes of parts.
  *
  * @param frame  M, B, C without the sums over cells.
- * @throws std::invalid_argument if the interface has more coordinates than the interior of the parts; else as
- * reduce_with_basis(); the exception of the first part that fails, which ends the others.
+ * @throws std::invalid_argument if the interface has more coordinates than the interior of the parts, or for a frame
+ * beyond buckling; else as reduce_with_basis(); the exception of the first part that fails, which ends the others.
  *
  * Source: Craig & Bampton 1968; docs/theory/substructures.md, "One mesh in parts".
  */
 ReducedModel reduce_in_parts(const fem::FrameMatrices &frame, const fem::CellParts &parts,
                              const ReductionOptions &options, const PartsCall &call);
+
+/**
+ * Deflection q [n] of such a frame under static loads f [n], C q = f: each part is condensed to its interface in a
+ * process of its own, and recovered in another.
+ *
+ * @throws std::invalid_argument if supports leave the frame free; as reduce_in_parts().
+ */
+Eigen::VectorXd deflection_in_parts(const fem::FrameMatrices &frame, const fem::CellParts &parts,
+                                    const Eigen::VectorXd &f, const PartsCall &call);
 
 /// Memory [byte] of a reduction in parts, docs/theory/substructures.md (11).
 struct PartsMemory

@@ -128,6 +128,16 @@ TEST_P(RanksOfMpi, FindTheFrequenciesOfACurvedFrameThatOneProcessFinds)
   expect_same_frequencies(bored(folder) + set(curved), GetParam());
 }
 
+TEST(TwoRanksOfMpi, FindTheFrequenciesOfAPrestressedPlateThatOneProcessFinds)
+{
+  const Folder      folder("mpi_prestress");
+  const std::string scene = plate(folder) + " --set frame.prestress='{ loads = [{ surface = \"pad\", force = [0, 0, "
+                                            "\"-20 kN\"] }] }'";
+  const auto        ranks = reduced(scene, 2), alone = reduced(scene, 0);
+  EXPECT_LT(difference(ranks, alone), same);
+  EXPECT_EQ(ranks.statements, alone.statements);
+}
+
 TEST(FourRanksOfMpi, FindTheFrequenciesOfThePressThatOneProcessFinds)
 {
   expect_same_frequencies(scene("press.toml") + set(coarse_size), 4);

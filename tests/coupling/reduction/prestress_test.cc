@@ -1,14 +1,19 @@
 // Geometric stiffness: its invariants, buckling loads and frequencies of bars and plates under load.
 
+#include "coupling/algebra/dense_modes.h"
 #include "coupling/frame/frame_recipe.h"
 #include "coupling/plugin/frame/prestressed.h"
 #include "fem/recovery/raised_matrices.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
+#include "tests/support/frame_folder.h"
 #include "tests/support/lowest_modes.h"
 #include "tests/support/statics.h"
 #include "tests/support/test.h"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <cmath>
 
 namespace gestell::test
@@ -28,14 +33,18 @@ fem::Discretisation stressed(const fem::Mesh &mesh, const fem::FrameSpecificatio
   return coupling::discretised(mesh, specification, "", {});
 }
 
-/// The number in the statement on the buckling factor.
-double buckling_factor(const fem::Discretisation &frame)
+/// The number after these words of a statement.
+double factor_in(const std::vector<std::string> &statements, const std::string &head)
 {
-  const std::string head = "the buckling factor is ";
-  for (const std::string &statement : frame.matrices.statements)
+  for (const std::string &statement : statements)
     if (const auto at = statement.find(head); at != std::string::npos)
       return std::stod(statement.substr(at + head.size()));
   return INFINITY;
+}
+
+double buckling_factor(const fem::Discretisation &frame)
+{
+  return factor_in(frame.matrices.statements, "the buckling factor is ");
 }
 
 /// A block on soft ground with a coupled face on top, a counterweight above it, and its own weight.
@@ -80,7 +89,31 @@ TEST_P(GeometricStiffness, IsSymmetricAndTurnsWithTheWorkOfTheWeight)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cells, GeometricStiffness, ::testing::Values(box_mesh, brick_mesh, prism_mesh));
+/// With its vertical edges bent by 2 %.
+fem::Mesh curved_mesh(const std::array<int, 3> &n, const std::array<double, 3> &size, double)
+{
+  fem::Mesh mesh = box_mesh(n, size);
+  for (const auto &cell : mesh.cells)
+    for (int a = 0; a < 4; ++a)
+      for (int b = 0; b < a; ++b)
+      {
+        const auto [i, j] = std::minmax(cell[a], cell[b]);
+        const auto &x = mesh.points[i], &y = mesh.points[j];
+        if (x[0] == y[0] && x[1] == y[1] && (x[0] == 0. || x[0] == size[0]))
+          mesh.middles[{i, j}] = {x[0] + 0.02 * std::abs(x[2] - y[2]), x[1], 0.5 * (x[2] + y[2])};
+      }
+  return mesh;
+}
+
+/// Plates as swept ones: prisms beside hexahedra.
+fem::Mesh swept_mesh(const std::array<int, 3> &n, const std::array<double, 3> &size, double)
+{
+  return filled_mesh(n, size,
+                     [](int i, int, int) { return i == 0 ? fem::CellKind::prism : fem::CellKind::hexahedron; });
+}
+
+INSTANTIATE_TEST_SUITE_P(Cells, GeometricStiffness,
+                         ::testing::Values(box_mesh, brick_mesh, prism_mesh, swept_mesh, curved_mesh));
 
 constexpr double length = 1., side = 0.05;
 
@@ -159,6 +192,108 @@ TEST(Prestress, KeepsTheBalanceOfSupportsAndLoads)
   EXPECT_NEAR(x.on_q.dot(q) + x.under_acceleration[0], -frame.matrices.mass, 1e-8 * frame.matrices.mass);
 }
 
+TEST(Prestress, IsProportionalToItsFactor)
+{
+  const auto mesh     = brick_mesh({2, 2, 3}, {1., 0.8, 1.5}, 0.2);
+  auto       s        = heavy_block();
+  const auto whole    = stressed(mesh, s);
+  s.prestress->factor = 0.5;
+  const auto half     = stressed(mesh, s);
+  s.prestress.reset();
+  const Eigen::MatrixXd C = stressed(mesh, s).matrices.C, difference = 2. * half.matrices.C - whole.matrices.C - C;
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-12 * C.cwiseAbs().maxCoeff());
+  EXPECT_NEAR(buckling_factor(half), 2. * buckling_factor(whole), 2e-3); // of its digits
+}
+
+TEST(Prestress, TurnsAndScalesWithTheFrame)
+{
+  // Turned by Q and l times as large under l^2 times the forces: equal stresses, frequencies / l, the same factor.
+  const double          l = 3.;
+  const Eigen::Matrix3d Q = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1., 2., -0.5).normalized()).matrix();
+  const Eigen::Vector3d F(-1e5, 2e3, -1e4);
+  const auto            of = [&](const Eigen::Matrix3d &A, double scale)
+  {
+    fem::Mesh mesh = box_mesh({8, 1, 1}, {length, side, side});
+    for (fem::Point3 &x : mesh.points)
+      Eigen::Map<Eigen::Vector3d>(x.data()) = scale * A * Eigen::Map<Eigen::Vector3d>(x.data()).eval();
+    const Eigen::Vector3d turned = scale * scale * A * F;
+    auto                  frame  = bar({clamped("wall", {"x0"})}, {force_on("x1", {turned[0], turned[1], turned[2]})});
+    return stressed(mesh, frame);
+  };
+  const auto given = of(Eigen::Matrix3d::Identity(), 1.), moved = of(Q, l);
+  EXPECT_EQ(buckling_factor(moved), buckling_factor(given)); // to four digits
+  const Eigen::VectorXd f = lowest_modes(given.matrices, 4).frequency_hz,
+                        g = lowest_modes(moved.matrices, 4).frequency_hz;
+  EXPECT_LT((l * g - f).cwiseQuotient(f).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+class PrestressInParts : public FrameFolder // parts have a cache of their own
+{
+protected:
+  /// A pressed column with a node at its end and a mass on it.
+  static fem::FrameSpecification column(double P)
+  {
+    auto s                    = bar({clamped("wall", {"x0"})}, {force_on("x1", {-P, 0.1 * P, 0.})});
+    s.material.nu             = 0.3;
+    s.interfaces              = {interface("end", {"x1"}, fem::InterfaceCoupling::rigid)};
+    s.masses                  = {{"motor", 4., Eigen::Matrix3d::Identity(), {}, "end", {}, {}, ""}};
+    s.prestress->acceleration = {0., 0., -9.81};
+    s.rayleigh_stiffness      = 1e-5;
+    s.place                   = "scene.toml:2: frame";
+    return s;
+  }
+
+  static coupling::ReducedFrame in_parts(const fem::Mesh &mesh, const fem::FrameSpecification &s, int n_parts,
+                                         int n_modes)
+  {
+    coupling::PartsCall call{s.rayleigh_mass, s.rayleigh_stiffness, s.place, 1, {}, s.prestress->place};
+    const auto          linear = fem::discretise_for_parts(mesh, s);
+    const auto          frame =
+        coupling::discretised_in_parts(linear, linear.mesh_error->parts(n_parts, s.place), mesh, s, call);
+    const auto                 parts = frame.mesh_error->parts(n_parts, s.place);
+    coupling::ReductionOptions options;
+    options.n_modes = n_modes;
+    auto reduced    = coupling::reduce_in_parts(frame.matrices, parts, options, call);
+    coupling::add_buckling_bound(reduced, frame, parts, s.prestress->place);
+    return reduced.frame;
+  }
+};
+
+TEST_F(PrestressInParts, HasTheStiffnessAndFrequenciesOfTheFrameInOnePiece)
+{
+  const auto                 mesh  = box_mesh({12, 1, 1}, {length, side, side});
+  const auto                 s     = column(0.6 * euler(2. * length));
+  const auto                 whole = stressed(mesh, s);
+  coupling::ReductionOptions options;
+  options.n_modes = 120; // of 621, and as many of each part: those left out count for less than 1e-6
+  const auto one  = coupling::reduce_frame(whole.matrices, options);
+  for (const int n_parts : {2, 3})
+  {
+    const auto parts = in_parts(mesh, s, n_parts, options.n_modes);
+    for (int j = 0; j < 4; ++j)
+      EXPECT_NEAR(parts.frequencies_hz[j], one.frequencies_hz[j], 1e-6 * one.frequencies_hz[j]) << n_parts << ' ' << j;
+    const Eigen::MatrixXd C = one.C.topLeftCorner(6, 6), B = one.B.topLeftCorner(6, 6);
+    EXPECT_LT((parts.C.topLeftCorner(6, 6) - C).norm(), 1e-8 * C.norm());
+    EXPECT_LT((parts.B.topLeftCorner(6, 6) - B).norm(), 1e-6 * B.norm());
+
+    // The buckling factor in the reduced coordinates is one of Ritz.
+    const double exact = buckling_factor(whole), bound = factor_in(parts.statements, "the buckling factor is at most ");
+    EXPECT_GT(bound, (1. - 1e-3) * exact); // of its digits
+    EXPECT_LT(bound, (1. + 1e-3) * exact);
+  }
+}
+
+TEST_F(PrestressInParts, IsRefusedBeyondBuckling)
+{
+  const auto mesh = box_mesh({12, 1, 1}, {length, side, side});
+  for (const double share : {1.1, 30.}) // of the frame, and of its parts with their interfaces fixed
+    expect_refusal([&] { in_parts(mesh, column(share * euler(2. * length)), 2, 10); },
+                   "scene.toml:5: prestress beyond buckling: ");
+  auto loose = column(1e4);
+  loose.supports.clear();
+  expect_refusal([&] { in_parts(mesh, loose, 2, 10); }, "scene.toml:5: the supports leave the frame free to move");
+}
+
 TEST(Prestress, ChangesNothingWithoutLoads)
 {
   auto s = heavy_block();
@@ -173,11 +308,16 @@ TEST(Prestress, ChangesNothingWithoutLoads)
 
 TEST(Prestress, IsRefusedWhereItHasNoMeaning)
 {
-  const auto mesh   = brick_mesh({4, 1, 1}, {length, side, side});
-  const auto refuse = [&](const fem::FrameSpecification &s) { return refusal([&] { stressed(mesh, s); }); };
-  const auto wall   = clamped("wall", {"x0"});
-  EXPECT_NE(refuse(bar({wall}, {force_on("x1", {-2. * euler(2. * length), 0., 0.})})).find("beyond buckling"),
-            std::string::npos);
+  const auto        mesh   = brick_mesh({4, 1, 1}, {length, side, side});
+  const auto        refuse = [&](const fem::FrameSpecification &s) { return refusal([&] { stressed(mesh, s); }); };
+  const auto        wall   = clamped("wall", {"x0"});
+  const std::string beyond = refuse(bar({wall}, {force_on("x1", {-2. * euler(2. * length), 0., 0.})}));
+  EXPECT_NE(beyond.find("scene.toml:5: prestress beyond buckling: the frame buckles at 0.5"), std::string::npos)
+      << beyond;
+  EXPECT_NE(beyond.find("times these loads, and needs more than 1; reduce them or their 'factor', or stiffen the "
+                        "frame"),
+            std::string::npos)
+      << beyond;
   EXPECT_NE(refuse(bar({wall}, {})).find("loads are zero"), std::string::npos);
   EXPECT_NE(refuse(bar({}, {force_on("x1", {1., 0., 0.})})).find("add a support"), std::string::npos);
   EXPECT_NE(refuse(bar({wall}, {force_on("end", {1., 0., 0.})})).find("\"end\""), std::string::npos);

@@ -8,12 +8,18 @@
 #include "tests/support/lowest_modes.h"
 #include "tests/support/test.h"
 
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
 namespace gestell::test
 {
 namespace
 {
 
 using coupling::JointKind;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr auto clamped_faces = fem::InterfaceCoupling::rigid;
@@ -121,6 +127,76 @@ TEST(PrestressedParts, HangingUnderTheirWeightStiffenLikeTheFrameInOnePiece)
   const Eigen::Array2d more = squares(prestress(g, false)) - squares({});
   EXPECT_GT(more[1], 0.);
   EXPECT_NEAR(more[0], more[1], 0.02 * more[1]);
+}
+
+/// Matrices of two bars with a common node, which is the last interface of the first and the first of the second.
+struct Glued
+{
+  MatrixXd         M, C;
+  VectorXd         load;   ///< of the weight
+  std::vector<int> common; ///< coordinates of the node
+};
+
+Glued glued(const fem::Discretisation &first, const fem::Discretisation &second, const Eigen::Vector3d &g)
+{
+  const auto      &a = first.matrices, &b = second.matrices;
+  const auto       node_a = a.interfaces.back().coordinates(), node_b = b.interfaces.front().coordinates();
+  const int        n_a = int(a.M.rows());
+  int              n   = n_a;
+  std::vector<int> of_b(std::size_t(b.M.rows()), -1);
+  for (int k = 0; k < 6; ++k)
+    of_b[std::size_t(node_b[std::size_t(k)])] = node_a[std::size_t(k)];
+  for (int &i : of_b)
+    i = i < 0 ? n++ : i;
+  Glued      all{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), VectorXd::Zero(n), node_a};
+  const auto unbalanced = [](const fem::Discretisation &part)
+  {
+    MatrixXd   C  = part.matrices.C;
+    const auto q1 = part.matrices.interface_coordinates();
+    if (part.balance.size() > 0)
+      C(q1, q1) -= part.balance;
+    return C;
+  };
+  all.M.topLeftCorner(n_a, n_a) = a.M;
+  all.C.topLeftCorner(n_a, n_a) = unbalanced(first);
+  all.load.head(n_a)            = a.acceleration_load * g;
+  all.M(of_b, of_b) += MatrixXd(b.M);
+  all.C(of_b, of_b) += unbalanced(second);
+  all.load(of_b) += b.acceleration_load * g;
+  return all;
+}
+
+TEST(PrestressedParts, VibrateAsTheFrameInOnePiece)
+{
+  // Two thirds of the weight that buckles the column: what is of second order in the geometric stiffness counts.
+  std::vector<Piece> pieces{bar("foot", clamped_faces, clamped_faces),
+                            bar("top", clamped_faces, clamped_faces, part_length)};
+  pieces[0].geometry.interfaces.erase(pieces[0].geometry.interfaces.begin());
+  pieces[0].geometry.supports = {clamped("floor", {"x0"})};
+  auto                  frame = described(pieces, {weld("middle", {"foot", "front"}, {"top", "rear"})});
+  const double          l = 2. * part_length, EI = 210e9 * part_width * std::pow(part_height, 3) / 12.;
+  const Eigen::Vector3d g(-7.837 * EI / (l * l * l) / (7850. * part_width * part_height) / 1.5, 0., 0.);
+  frame.prestress       = prestress({g[0], g[1], g[2]}, false);
+  const Stressed result = stressed(pieces, frame);
+  const auto     whole  = [&](const coupling::FrameOfParts &of)
+  {
+    const auto part = [&](std::size_t i)
+    { return coupling::discretised(pieces[i].mesh, of.parts[i].geometry, "", {}); };
+    return glued(part(0), part(1), g);
+  };
+
+  const Glued    unstressed = whole(frame);
+  const VectorXd q0         = unstressed.C.ldlt().solve(unstressed.load)(unstressed.common);
+  const auto    &motion     = result.frame.parts[0].geometry.prestress->interface_motion;
+  EXPECT_LT((VectorXd::Map(motion.data(), 6) - q0).norm(), 1e-8 * q0.norm());
+
+  const Glued    own   = whole(result.frame);
+  const VectorXd omega = coupling::dense_modes(own.C, own.M, coupling::cancelled_by_reduction).omega,
+                 joint = coupling::dense_modes(result.joined.matrices.C, result.joined.matrices.M,
+                                               coupling::cancelled_by_reduction)
+                             .omega;
+  for (int j = 0; j < 8; ++j)
+    EXPECT_NEAR(joint[j], omega[j], 1e-6 * omega[j]) << j;
 }
 
 TEST(PrestressedParts, BuckleUnderTheirWeightAtGreenhillsLength)

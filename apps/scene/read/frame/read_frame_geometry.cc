@@ -333,8 +333,6 @@ fem::Prestress read_surface_loads(const SceneTable &table, const SceneTable &sce
                                   const fem::FrameSpecification &frame)
 {
   fem::Prestress prestress = read_prestress(table, scene);
-  if (frame.parts != 1)
-    throw table.error("needs the whole frame at once; leave out 'parts'");
   for (const SceneTable &own : table.table_array("loads"))
   {
     if (!own.has("force") && !own.has("pressure"))

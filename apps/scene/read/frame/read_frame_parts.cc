@@ -316,6 +316,9 @@ FrameOfParts read_frame_parts(const SceneTable &any, const SceneTable &scene)
     parts.prestress->tie_rods = prestress->truth("tie_rods");
     if (!parts.prestress->tie_rods && parts.prestress->acceleration == fem::Vector3{})
       throw prestress->error("has no load; give it tie_rods = true, or gravity = true and the scene a 'gravity'");
+    for (const FramePart &part : parts.parts)
+      if (part.geometry.parts != 1)
+        throw prestress->error("needs each part in one piece; remove 'parts' of frame.part." + part.name);
   }
   if (parts.parts.size() < 2)
     throw frame.error("has only one part; write a frame of one part as [frame] cad = ...");
