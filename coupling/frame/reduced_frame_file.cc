@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <vector>
@@ -58,6 +59,11 @@ public:
   void operator()(const std::string &name, const std::string &text) { file_.write(name, text); }
   void operator()(const std::string &name, double x) { file_.write(name, MatrixXd(MatrixXd::Constant(1, 1, x))); }
   void operator()(const std::string &name, int x) { (*this)(name, double(x)); }
+  void operator()(const std::string &name, const std::optional<double> &x)
+  {
+    if (x)
+      (*this)(name, *x);
+  }
   template <typename Number, int rows, int columns>
   void operator()(const std::string &name, const Eigen::Matrix<Number, rows, columns> &A)
   {
@@ -104,6 +110,11 @@ public:
   void operator()(const std::string &name, std::string &text) { text = file_.read_text(name); }
   void operator()(const std::string &name, double &x) { x = file_.read_number(name); }
   void operator()(const std::string &name, int &x) { x = whole_number(file_, name); }
+  void operator()(const std::string &name, std::optional<double> &x)
+  {
+    if (file_.has(name))
+      x = file_.read_number(name);
+  }
   void operator()(const std::string &name, Eigen::MatrixXf &A) { A = file_.read_floats(name); }
   template <int rows, int columns>
   void operator()(const std::string &name, Eigen::Matrix<double, rows, columns> &A)
@@ -196,14 +207,15 @@ void each_part_of_facts(const std::string &at, Part &part, Archive &archive)
 template <typename Archive, typename Facts>
 void each_fact(const std::string &at, Facts &facts, Archive &archive)
 {
-  auto &[parts, whole, rigid_energy, free_motions] = facts;
-  auto &[mass, centre, inertia]                    = whole;
+  auto &[parts, whole, rigid_energy, free_motions, buckling_factor] = facts;
+  auto &[mass, centre, inertia]                                     = whole;
   archive(at + "/parts", parts);
   archive(at + "/mass", mass);
   archive(at + "/centre", centre);
   archive(at + "/inertia", inertia);
   archive(at + "/rigid_energy", rigid_energy);
   archive(at + "/free_motions", free_motions);
+  archive(at + "/buckling_factor", buckling_factor);
 }
 
 template <typename T, typename Archive>

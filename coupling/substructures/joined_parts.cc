@@ -173,6 +173,8 @@ ReducedFrame facts_of(const std::vector<ReducedFrame> &parts, const FrameOfParts
     whole.facts.whole.add(part.facts.whole);
     if (!(part.facts.rigid_energy <= whole.facts.rigid_energy) && !std::isnan(whole.facts.rigid_energy))
       whole.facts.rigid_energy = part.facts.rigid_energy; // unknown if that of one part is
+    if (const auto &own = part.facts.buckling_factor)
+      whole.facts.buckling_factor = std::min(whole.facts.buckling_factor.value_or(*own), *own);
     append(whole.notes, frame.parts[i].name, part.notes);
     append(whole.cache_notes, frame.parts[i].name, part.cache_notes);
     append(whole.statements, frame.parts[i].name, part.statements);

@@ -37,7 +37,7 @@ inline void add_buckling(double lambda, BucklingValue value, const std::string &
                            ? "prestress: tension dominates, and the frame does not buckle" + where
                            : std::string("prestress: the buckling factor is ") +
                                  (value == BucklingValue::upper_bound ? "at most " : "") + rounded(lambda) + where);
-  (void)facts;
+  facts.buckling_factor = std::min(facts.buckling_factor.value_or(lambda), lambda);
 }
 
 } // namespace gestell::coupling

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -94,6 +95,9 @@ struct FrameFacts
   double rigid_energy = std::numeric_limits<double>::quiet_NaN();
   /// Names of the rigid-body modes of the supported frame (no elastic energy); see free_motions().
   std::vector<std::string> free_motions;
+  /// Smallest positive factor of the loads of FrameSpecification::prestress at which the frame buckles, or its least
+  /// known upper bound; infinite: none. Not set without prestress.
+  std::optional<double> buckling_factor;
 };
 
 /**

@@ -35,6 +35,7 @@ inline coupling::ReducedFrame some_frame()
   frame.facts.parts        = {{"column", "steel", 10.}, {"motor", "", 1. / 3.}};
   frame.facts.whole.centre = {0.1, 0.2, 1. / 3.};
   frame.facts.free_motions = {"translation along x"};
+  frame.facts.buckling_factor = 4. / 3.;
   frame.notes              = {"a note", ""};
   frame.statements         = {"a fact"};
   frame.stress.point       = {0, 1, 2, 1};

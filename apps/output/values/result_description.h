@@ -37,6 +37,11 @@ void describe(Visitor &v, const ModelFacts &x)
   v.maybe(cells, "parts", x.frame.parts, "", "solids and attached masses");
   v.maybe(cells, "rigid_energy", x.frame.rigid_energy, "1",
           "relative elastic energy of rigid-body displacements of the unsupported frame; rounding error only");
+  const std::optional<double> &buckling = x.frame.buckling_factor;
+  v.maybe(buckling.has_value(), "buckling_factor",
+          buckling && std::isfinite(*buckling) ? buckling : std::optional<double>(), "1",
+          "factor of the loads of `frame.prestress` at which the frame buckles, an upper bound for a frame of parts or "
+          "in parts; null: tension dominates, the frame does not buckle");
   v.maybe(frame, "free_motions", x.free_motions, "", "number of rigid-body modes");
   v.maybe(frame, "free_motion_names", x.frame.free_motions, "", "names of the rigid-body modes");
   v.maybe(frame, "damping", x.damping, "", "damping of the frame, as text");

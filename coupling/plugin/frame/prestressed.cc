@@ -65,29 +65,6 @@ VectorXd static_deflection(const StiffnessFactor &factor, const fem::Discretisat
   return q + given;
 }
 
-/**
- * D with D R_1 = -Psi^T K R for the free motions R of a part: C + K + D lets it float, as reductions expect. D acts on
- * interface coordinates, which remain, so that it can be subtracted from the reduced stiffness.
- *
- *     G = Psi^T K R,   P = (R_1^T R_1)^-1 R_1^T,   D = -(G P + P^T G^T - P^T R_1^T G P)
- *
- * @param inverse  C22^-1.
- */
-MatrixXd balance_of(const StiffnessFactor &inverse, const fem::FrameMatrices &linear, const fem::SparseMatrix &K,
-                    const std::vector<int> &q1)
-{
-  const MatrixXd R = fem::free_displacements(linear);
-  if (R.cols() == 0)
-    return {};
-  const MatrixXd KR    = K * R;
-  MatrixXd       inner = KR;
-  inverse.solve_in_place(inner);
-  const MatrixXd G = (KR - linear.C * inner)(q1, Eigen::all), R_1 = R(q1, Eigen::all);
-  const MatrixXd P = (R_1.transpose() * R_1).ldlt().solve(R_1.transpose()), GP = G * P;
-  const MatrixXd D = P.transpose() * (R_1.transpose() * GP) - GP - GP.transpose();
-  return 0.5 * (D + D.transpose());
-}
-
 Eigen::SparseMatrix<double> at(const std::vector<int> &q1, const MatrixXd &D, Eigen::Index n)
 {
   std::vector<Eigen::Triplet<double>> entries;
@@ -97,6 +74,40 @@ Eigen::SparseMatrix<double> at(const std::vector<int> &q1, const MatrixXd &D, Ei
   Eigen::SparseMatrix<double> all(n, n);
   all.setFromTriplets(entries.begin(), entries.end());
   return all;
+}
+
+/**
+ * Lets a prestressed part float, as reductions expect. With the free motions R of the part without prestress, for which
+ * C' R = K R, C' = C + K, the interior is in equilibrium in
+ *
+ *     R^ = R - (0; C'22^-1 (K R)_2),     C' R^ = (G; 0),
+ *
+ * so that C' + D has the free motions R^ for a D of interface coordinates with D R_1 = -G:
+ *
+ *     P = (R_1^T R_1)^-1 R_1^T,   D = -(G P + P^T G^T - P^T R_1^T G P).
+ *
+ * The coordinates of D remain, so that it can be subtracted from the reduced stiffness.
+ *
+ * @param inverse  C'22^-1.
+ */
+void balance(const StiffnessFactor &inverse, const fem::FrameMatrices &linear, const std::vector<int> &q1,
+             fem::Discretisation &stressed)
+{
+  const MatrixXd R = fem::free_displacements(linear);
+  if (R.cols() == 0)
+    return;
+  const auto inner = [&](MatrixXd X)
+  {
+    inverse.solve_in_place(X);
+    return X;
+  };
+  const MatrixXd KR = stressed.geometric * R, G = (KR - stressed.matrices.C * inner(KR))(q1, Eigen::all),
+                 R_1 = R(q1, Eigen::all);
+  const MatrixXd P = (R_1.transpose() * R_1).ldlt().solve(R_1.transpose()), GP = G * P;
+  const MatrixXd D = P.transpose() * (R_1.transpose() * GP) - GP - GP.transpose();
+  stressed.balance = 0.5 * (D + D.transpose());
+  stressed.matrices.rigid_motions -= inner(stressed.geometric * linear.rigid_motions);
+  fem::add(stressed.matrices.C, at(q1, stressed.balance, KR.rows()));
 }
 
 } // namespace
@@ -129,8 +140,8 @@ fem::Discretisation discretised(const fem::Mesh &mesh, const fem::FrameSpecifica
                stressed.matrices.facts);
   if (is_part)
   {
-    stressed.balance = balance_of(*C_inverse, linear.matrices, stressed.geometric, held);
-    fem::add(stressed.matrices.C, at(held, stressed.balance, q0.size()));
+    C_inverse->release();
+    balance(*factor_of(stressed.matrices, held, prestress, factor), linear.matrices, held, stressed);
   }
   return stressed;
 }
