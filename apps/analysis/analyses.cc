@@ -94,7 +94,7 @@ Result computed(const AnalysisEntry &entry, Analysis &analysis, Session &session
 {
   analysis.check(session);
   const auto add = [&](Result &result) { outcome = analysis.compute(session, result); };
-  if (entry.of != "run")
+  if (entry.of != "run" || !analysis.computes_run())
     return session.answered(entry.name, add);
   const Analyses parts = analyses_of("run"); // those that tables of the scene request
   RunParts       all;

@@ -40,6 +40,9 @@ public:
   virtual AnalysisOutcome compute(Session &, Result &) const { return AnalysisOutcome::done; }
   /// Writes files that only the command makes; returns a line about them.
   virtual std::string write(Session &, OwnFolder &) const { return ""; }
+  /// Replaces an input of its command that is a result folder by the scene, its changes, and a folder for results.
+  virtual void open(std::string &, std::vector<std::string> &, std::string &) {}
+  virtual bool computes_run() const { return true; } ///< of an analysis of runs: false if it opened their results
 };
 
 /// Registration of an analysis in analyses.cc: as a command, as an addition to another command, or both.

@@ -46,8 +46,9 @@ int exit_code_of(AnalysisOutcome outcome)
                                                    : exit_failed;
 }
 
-int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const CommonOptions &options)
+int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, CommonOptions options)
 {
+  analysis.open(options.input, options.overrides, options.folder);
   ProgressLine progress(options.quiet);
   const bool   saves = !entry.motions.empty();
   Session      session(options.input, options.overrides, options.scripts,

@@ -302,6 +302,7 @@ def _responses(result: "Result"):
 
 
 Scene.frequency_response = _computes("frf", _responses, **{"from": "source"})
+Scene.life = _computes("life", lambda result: result, life_error="error", life_by="by")
 
 
 class Motion:

@@ -256,8 +256,11 @@ private:
   std::vector<char>            side_; // [displacements]
 };
 
-[[noreturn]] void refuse(const CutSpecification &cut, const std::vector<double> &height)
+[[noreturn]] void refuse(const CutSpecification &cut, const Plane &plane, const QuadraticMesh &mesh)
 {
+  std::vector<double> height;
+  for (const auto &point : mesh.points)
+    height.push_back(plane.height(vector_of(point)));
   const auto [low, high] = std::minmax_element(height.begin(), height.end());
   std::ostringstream message;
   message << head(cut) << ": the plane does not cut the frame, which extends from " << *low << " m to " << *high
@@ -334,7 +337,7 @@ std::vector<FrameOutput> cut_forces(const CutSpecification &cut, const Quadratic
         entries.emplace_back(3 * nodes[i / 3] + i % 3, k, row(i, k));
   }
   if (!divides)
-    refuse(cut, height);
+    refuse(cut, plane, mesh);
   Eigen::SparseMatrix<double> rows(affine.n_displacements(), 6);
   rows.setFromTriplets(entries.begin(), entries.end());
   std::vector<FrameOutput> outputs;

@@ -41,14 +41,18 @@ struct CellMap
   double y(double row) const { return top + high - row * cell_high; }
 };
 
-/// Grey without damage, else by its logarithm from a ten-thousandth of the largest.
+/// Grey without damage.
 std::string cell_colour(double damage, double most)
 {
-  constexpr double decades = 4.;
-  return damage > 0. ? hex(scale_colour(std::clamp(1. + std::log10(damage / most) / decades, 0., 1.))) : "#b0b0b0";
+  return damage > 0. ? hex(scale_colour(shade_of(damage, most))) : "#b0b0b0";
 }
 
 } // namespace
+
+double shade_of(double damage, double most)
+{
+  return damage > 0. ? std::clamp(1. + std::log10(damage / most) / shaded_decades, 0., 1.) : 0.;
+}
 
 Chart life_history_chart(const LifeResult &found)
 {

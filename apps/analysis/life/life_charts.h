@@ -8,6 +8,10 @@
 namespace gestell::apps
 {
 
+/// Share of the colour scale of a damage: its logarithm, 0 up to a ten-thousandth of the largest.
+constexpr double shaded_decades = 4.;
+double           shade_of(double damage, double most);
+
 /// Stress over time at the worst place, with the turning points of the most damaging cycles.
 Chart life_history_chart(const LifeResult &found);
 

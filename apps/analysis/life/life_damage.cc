@@ -36,8 +36,9 @@ struct LifeGroup
   const ReducedStress         *stress = nullptr;
   DamageRule                   rule;
   DamageSearch                 search;
-  std::vector<int>             skin;  ///< [points] of the frame's skin; empty: they are these
-  std::optional<ReducedStress> own{}; ///< of a weld
+  std::vector<int>             skin;    ///< [points] of the frame's skin; empty: they are these
+  std::optional<ReducedStress> own{};   ///< of a weld
+  std::string                  doubt{}; ///< a warning about the weld
 
   int skin_point(int i) const { return skin.empty() ? i : skin[std::size_t(i)]; }
 };
@@ -74,6 +75,7 @@ LifeGroup group_of_weld(const LifeRequest &life, const WeldRequest &weld, const 
   group.search.position   = std::move(points.position);
   group.skin              = std::move(points.skin);
   group.own               = std::move(points.stress);
+  group.doubt             = std::move(points.doubt);
   return group;
 }
 
@@ -206,6 +208,8 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
       place.error.mesh = std::numeric_limits<double>::infinity();
     return place;
   }
+  if (std::isinf(place.damage)) // life_warnings() gives the reason
+    return place;
   place.error.mesh  = ratio_of_lives(damage(load.states, load.sequence, 1. + place.disagreement), place.damage);
   place.error.modes = ratio_of_lives(damage(others.without_modes, load.sequence, 1.), place.damage);
   place.error.time  = std::cbrt(ratio_of_lives(damage(others.coarse.states, others.coarse.sequence, 1.), place.damage));
@@ -329,10 +333,7 @@ LifeResult life_of(const Scene &scene, const ReducedFrame &frame, const LifeLoad
   const LifeRequest &life = *scene.life;
   const LifeSkin     skin = skin_of(frame);
   LifeResult         result;
-  result.measure                                                = life.measure;
-  result.mean_stress                                            = life.mean_stress;
-  result.miner                                                  = life.miner;
-  result.residue                                                = life.residue;
+  result.asked                                                  = life;
   result.service                                                = load.service;
   result.strokes                                                = load.strokes;
   result.n_states                                               = long(load.n_samples());
@@ -342,6 +343,9 @@ LifeResult life_of(const Scene &scene, const ReducedFrame &frame, const LifeLoad
   const OtherLoads                                       others = other_loads(frame, load);
   std::vector<std::pair<const LifeGroup *, PointDamage>> worst;
   for (const LifeGroup &group : groups)
+  {
+    if (!group.doubt.empty())
+      result.warnings.push_back(group.doubt);
     for (const PointDamage &at : worst_of(group, load, result))
     {
       LifePlace place = place_of(group, at, frame, load, others);
@@ -353,6 +357,7 @@ LifeResult life_of(const Scene &scene, const ReducedFrame &frame, const LifeLoad
       worst.emplace_back(&group, at);
       result.places.push_back(std::move(place));
     }
+  }
   if (result.places.empty())
     return result;
   std::vector<std::size_t> order(worst.size());
@@ -384,8 +389,8 @@ double damage_at(const Scene &scene, const ReducedFrame &frame, const LifeLoad &
 
 std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &found)
 {
-  std::vector<std::string> warnings;
-  const LifePlace         *worst = found.worst();
+  std::vector<std::string> warnings = found.warnings;
+  const LifePlace         *worst    = found.worst();
   if (!worst)
     return {"life: no cycle was counted: the stress is constant, or all points of the mesh are next to rigid surfaces; "
             "refine the mesh"};
@@ -415,7 +420,12 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
                        percent(found.closing, 2) +
                        " of its range, so the load does not repeat smoothly; count one period only (output.from), or "
                        "let the run end in its initial state");
-  if (worst->cycles <= 1.)
+  if (std::isinf(worst->damage))
+    warnings.push_back(
+        "life: the mean stress of a cycle at " + place(*worst) +
+        " reaches the tensile strength, so that mean_stress = \"goodman\" leaves no life; check the unit "
+        "of 'strength' and the load");
+  if (worst->cycles <= 1. && found.closing > steady)
     warnings.push_back("life: " + short_text(worst->cycles) +
                        " cycle was counted at the worst place: the run contains only one rise and fall, so "
                        "smaller repeated cycles are not counted");

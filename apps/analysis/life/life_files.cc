@@ -28,8 +28,6 @@ CsvTable life_cycles_csv(const LifeResult &found)
 namespace
 {
 
-constexpr double no_damage = 1e-30; ///< in its place: logarithms need a number
-
 template <class Items, class Write>
 std::string vtp_array(const std::string &attributes, const Items &items, const Write &write)
 {
@@ -51,12 +49,16 @@ void vtp_three(std::string &text, const Point &x)
 std::string life_vtp(const LifeResult &found)
 {
   const LifeField &field = found.field;
-  if (field.damage.empty())
+  constexpr double most  = 1e30; // for an infinite damage: files have numbers
+  double           least = most;
+  for (const double damage : field.damage)
+    least = damage > 0. ? std::min(least, damage) : least;
+  if (least == most)
     return "";
   const auto logarithm = [&](double sign)
   {
-    return [sign](std::string &text, double damage)
-    { text += short_text(sign * std::log10(std::max(damage, no_damage)), 6) + ' '; };
+    return [sign, least, most](std::string &text, double damage) // no damage: a tenth of the smallest
+    { text += short_text(sign * std::log10(std::clamp(damage, 0.1 * least, most)), 6) + ' '; };
   };
   std::vector<std::size_t> ends;
   for (std::size_t k = 1; k <= field.triangles.size(); ++k)

@@ -36,9 +36,7 @@ Eigen::MatrixXd states_between(const Scene &scene, const ReducedFrame &frame, co
   return states;
 }
 
-/// @param life  of this scene; null: a stroke in its own time
-void add_run(const Scene &scene, const LifeRequest *life, const ReducedFrame &frame, const coupling::RunResult &run,
-             double repetitions, LifeLoad &load)
+void add_run(const Scene &scene, const ReducedFrame &frame, const coupling::RunResult &run, LifeLoad &load)
 {
   const double          begin = std::max(run.from, scene.run.options.begin), end = scene.run.options.end;
   const Eigen::MatrixXd states = states_between(scene, frame, run, begin, end, &load.t);
@@ -49,9 +47,8 @@ void add_run(const Scene &scene, const LifeRequest *life, const ReducedFrame &fr
                              " s: no cycle can be counted; life.step must be shorter");
   load.states.conservativeResize(states.rows(), n + states.cols());
   load.states.rightCols(states.cols()) = states;
-  load.sequence.blocks.push_back({n, n + states.cols(), repetitions});
-  load.service += repetitions * (life && life->period > 0. ? life->period : end - begin);
-  load.strokes += repetitions * (life ? life->strokes : 1.);
+  load.sequence.blocks.push_back({n, n + states.cols(), 1.});
+  load.windows.push_back(end - begin);
 }
 
 bool same_frame(const ReducedFrame &a, const ReducedFrame &b)
@@ -65,6 +62,13 @@ std::string frame_words(const ReducedFrame &frame)
   return count_text(frame.points.size(), "point") + ", " +
          count_text(std::size_t(frame.n_interface), "interface coordinate") + ", " +
          count_text(std::size_t(frame.M.rows() - frame.n_interface), "mode");
+}
+
+std::string differing_words(const ReducedFrame *there, const ReducedFrame &here)
+{
+  const std::string own = frame_words(here), other = there ? frame_words(*there) : "none";
+  return other == own ? own + " as in this scene, but with other stresses: material or dimensions differ"
+                      : other + ") from this scene (" + own;
 }
 
 const SceneNode *node_at(const SceneNode &root, const std::string &key)
@@ -95,9 +99,8 @@ void apply_changes_of(const Variant &own, Variant &block)
 /// Another scene on this frame, with the states and stresses that are needed here.
 std::unique_ptr<Session> block_session(Session &own, const BlockRequest &block, const ReducedFrame &frame)
 {
-  Variant variant = Variant::of_file(block.file, {}, own.variant().scripts);
-  apply_changes_of(own.variant(), variant);
-  Scene scene                   = variant.scene();
+  Variant variant               = block_variant(own.variant(), block);
+  Scene   scene                 = variant.scene();
   scene.frame.geometry.stress   = true;
   scene.run.options.states.step = own.scene().run.options.states.step;
   const std::string place       = block.place + ": the scene \"" + scene.name + "\" ";
@@ -106,8 +109,7 @@ std::unique_ptr<Session> block_session(Session &own, const BlockRequest &block, 
   other->check_run();
   const ReducedFrame *there = other->machine().machine.model().reduced_frame();
   if (!there || !same_frame(frame, *there))
-    throw std::invalid_argument(place + "has a different frame (" + (there ? frame_words(*there) : "none") +
-                                ") from this scene (" + frame_words(frame) +
+    throw std::invalid_argument(place + "has a different frame (" + differing_words(there, frame) +
                                 "); let both extend the same scene without changing keys of the frame");
   return other;
 }
@@ -119,10 +121,33 @@ void add_block(Session &own, const BlockRequest &block, const ReducedFrame &fram
   if (!result.run->failure.empty() || result.run->interrupted)
     throw std::runtime_error(block.place + ": the run of \"" + other->scene().name +
                              "\" did not finish: " + result.run->failure);
-  add_run(other->scene(), other->scene().life.get(), frame, *result.run, block.repetitions, load);
+  add_run(other->scene(), frame, *result.run, load);
 }
 
 } // namespace
+
+Variant block_variant(const Variant &own, const BlockRequest &block)
+{
+  Variant variant = Variant::of_file(block.file, {}, own.scripts);
+  apply_changes_of(own, variant);
+  return variant;
+}
+
+void weigh(LifeLoad &load, const Variant &own, const Scene &scene)
+{
+  const LifeRequest &life = *scene.life;
+  load.sequence.residue   = residue_of(life);
+  load.service = load.strokes = 0.;
+  const auto weigh_run        = [&](std::size_t k, const LifeRequest *of, double repetitions)
+  {
+    load.sequence.blocks.at(k).repetitions = repetitions;
+    load.service += repetitions * (of && of->period > 0. ? of->period : load.windows[k]);
+    load.strokes += repetitions * (of ? of->strokes : 1.);
+  };
+  weigh_run(0, &life, life.repetitions);
+  for (std::size_t k = 0; k < life.blocks.size(); ++k)
+    weigh_run(k + 1, block_variant(own, life.blocks[k]).scene().life.get(), life.blocks[k].repetitions);
+}
 
 void check_blocks(Session &session)
 {
@@ -136,15 +161,15 @@ LifeLoad life_load(Session &session, const coupling::RunResult &run)
   const LifeRequest  &life  = *scene.life;
   const ReducedFrame &frame = *session.machine().machine.model().reduced_frame();
   LifeLoad            load;
-  load.step             = scene.run.options.states.step;
-  load.sequence.residue = residue_of(life);
-  add_run(scene, &life, frame, run, life.repetitions, load);
+  load.step = scene.run.options.states.step;
+  add_run(scene, frame, run, load);
   const double begin = scene.run.options.begin, length = scene.run.options.end - run.from;
 
   if (run.from > begin && run.from - length >= begin - load.step)
     load.before = states_between(scene, frame, run, run.from - length, run.from);
   for (const BlockRequest &block : life.blocks)
     add_block(session, block, frame, load);
+  weigh(load, session.variant(), scene);
   return load;
 }
 

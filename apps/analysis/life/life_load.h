@@ -17,6 +17,7 @@ struct LifeLoad
   Eigen::MatrixXd     states; ///< (p; g) [n1 + m + 3 x samples], see coupling::stress_state()
   std::vector<double> t;      ///< [samples] s, of the run of each
   LoadSequence        sequence;
+  std::vector<double> windows;      ///< [s] of the runs
   double              service = 0.; ///< [s] of one repetition
   double              strokes = 0.; ///< of one repetition
   Eigen::MatrixXd     before; ///< states in the interval before that of the run, as long; empty: the run begins later
@@ -24,6 +25,12 @@ struct LifeLoad
 
   Eigen::Index n_samples() const { return states.cols(); }
 };
+
+/// The scene of a block with the changes that reach it.
+Variant block_variant(const Variant &own, const BlockRequest &block);
+
+/// Sets what does not depend on states: repetitions, residue, service and strokes.
+void weigh(LifeLoad &load, const Variant &own, const Scene &scene);
 
 /// @throws std::invalid_argument for a block with another frame
 void check_blocks(Session &session);

@@ -4,9 +4,11 @@
 #include "apps/output/describe/described.h"
 #include "apps/output/report/section.h"
 #include "apps/output/text/csv.h"
+#include "apps/scene/values/life_request.h"
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -53,15 +55,21 @@ struct LifePlace
 };
 
 template <class Visitor>
+void describe_life(Visitor &v, const LifePlace &x)
+{
+  v("damage", x.damage, "1", "damage of one repetition of the load; failure is at 1");
+  v("life", x.life, "1", "repetitions of the load until failure; null: no damage");
+  v("strokes", x.strokes, "1", "strokes until failure; null: no damage");
+  v("hours", x.hours, "h", "time in service until failure; null: no damage");
+}
+
+template <class Visitor>
 void describe(Visitor &v, const LifePlace &x)
 {
   v("of", x.of, "", "skin, or name of the weld");
   v("at", x.at, "m", "position x, y, z");
   v("direction", x.direction, "1", "direction of the normal stress; zero: none");
-  v("damage", x.damage, "1", "damage of one repetition of the load");
-  v("life", x.life, "1", "repetitions of the load until failure; null: no damage");
-  v("strokes", x.strokes, "1", "strokes until failure; null: no damage");
-  v("hours", x.hours, "h", "time in service until failure; null: no damage");
+  describe_life(v, x);
   v("cycles", x.cycles, "1", "counted cycles of one repetition");
   v("range", x.range, "Pa", "largest range");
   v("mean", x.mean, "Pa", "its mean stress");
@@ -118,22 +126,24 @@ void describe(Visitor &v, const LifeDerivative &x)
 
 struct LifeResult
 {
-  DamageRule                  rule; ///< of the worst place
-  std::string                 measure, mean_stress, miner, residue;
-  std::vector<LifePlace>      places;                     ///< by damage
-  std::optional<LifePlace>    beside_rigid;               ///< worst next to rigid surfaces
-  double                      service = 0., strokes = 0.; ///< of one repetition [s]
-  std::vector<LifeCycle>      cycles;                     ///< at the worst place, by damage
-  RangeMeanMatrix             matrix;
-  std::vector<double>         t, stress; ///< of the run of this scene there [s, Pa]
-  double                      closing       = std::numeric_limits<double>::quiet_NaN();
-  double                      stroke_change = std::numeric_limits<double>::quiet_NaN();
-  LifeField                   field;
-  int                         n_points = 0, looked_at = 0;
-  long                        n_states = 0;
-  double                      step = 0., cpu_s = 0.;
-  bool                        refined = false; ///< errors of modes and time are those of further runs
-  std::vector<LifeDerivative> derivatives{};
+  DamageRule                   rule; ///< of the worst place
+  LifeRequest                  asked;
+  std::vector<LifePlace>       places;                     ///< by damage
+  std::optional<LifePlace>     beside_rigid;               ///< worst next to rigid surfaces
+  double                       service = 0., strokes = 0.; ///< of one repetition [s]
+  std::vector<LifeCycle>       cycles;                     ///< at the worst place, by damage
+  RangeMeanMatrix              matrix;
+  std::vector<double>          t, stress; ///< of the run of this scene there [s, Pa]
+  double                       closing       = std::numeric_limits<double>::quiet_NaN();
+  double                       stroke_change = std::numeric_limits<double>::quiet_NaN();
+  LifeField                    field;
+  int                          n_points = 0, looked_at = 0;
+  long                         n_states = 0;
+  double                       step = 0., cpu_s = 0.;
+  bool                         refined = false; ///< errors of modes and time are those of further runs
+  std::vector<LifeDerivative>  derivatives{};
+  std::vector<std::string>     warnings{}; ///< about the stresses of welds
+  std::function<std::string()> states{};   ///< content of life_states.bin; empty: they are not of a run
 
   const LifePlace *worst() const { return places.empty() ? nullptr : &places.front(); }
 };
@@ -142,16 +152,13 @@ template <class Visitor>
 void describe(Visitor &v, const LifeResult &x)
 {
   const LifePlace worst = x.places.empty() ? LifePlace() : x.places.front();
-  v("damage", worst.damage, "1", "damage of one repetition of the load at the worst place");
-  v("life", worst.life, "1", "repetitions of the load until failure; null: no damage");
-  v("strokes", worst.strokes, "1", "strokes until failure; null: no damage");
-  v("hours", worst.hours, "h", "time in service until failure; null: no damage");
+  describe_life(v, worst);
   v("factor", worst.error.total(), "1", "error as a factor on life");
   v("curve", x.rule.curve.name, "", "S-N curve of the worst place");
-  v("measure", x.measure, "", "stress that is counted without a direction");
-  v("mean_stress", x.mean_stress, "", "correction for mean stresses");
-  v("miner", x.miner, "", "rule of Palmgren and Miner");
-  v("residue", x.residue, "", "ranges that no cycle closes");
+  v("measure", x.asked.measure, "", "stress that is counted without a direction");
+  v("mean_stress", x.asked.mean_stress, "", "correction for mean stresses");
+  v("miner", x.asked.miner, "", "rule of Palmgren and Miner");
+  v("residue", x.asked.residue, "", "ranges that no cycle closes");
   v("service", x.service, "s", "time in service of one repetition");
   v("strokes_each", x.strokes, "1", "strokes of one repetition");
   v("closing", x.closing, "1", "difference of the stress between end and start of the load, over its range");

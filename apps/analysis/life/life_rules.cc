@@ -12,9 +12,11 @@ namespace
 SnCurve curve_of(const CurveRequest &curve, StressKind kind)
 {
   constexpr double mega = 1e6; // classes are in MPa
+  if (curve.notch_class && curve.standard == "EN 1993-1-9")
+    return eurocode_curve(mega * *curve.notch_class, kind, curve.safety);
   if (curve.notch_class)
-    return (curve.standard == "EN 1993-1-9" ? eurocode_curve : crane_curve)(mega * *curve.notch_class, kind,
-                                                                            curve.safety);
+    return crane_curve(mega * *curve.notch_class, curve.slope.value_or(kind == StressKind::direct ? 3. : 5.), kind,
+                       curve.safety);
   if (curve.points.empty())
     return fkm_curve(fkm_material(curve.material), *curve.strength, kind, curve.design_factor * curve.safety);
   std::vector<SnPoint> points;
@@ -26,6 +28,9 @@ SnCurve curve_of(const CurveRequest &curve, StressKind kind)
 MeanStress effect_of(const LifeRequest &life, const CurveRequest &curve, StressKind kind, bool has_ratio)
 {
   MeanStress effect;
+  effect.shear = kind == StressKind::shear;
+  if (curve.stress_relieved)
+    effect.rule = MeanStress::Rule::eurocode;
   if (life.mean_stress == "none" || !has_ratio)
     return effect;
   if (!curve.strength)
@@ -36,6 +41,20 @@ MeanStress effect_of(const LifeRequest &life, const CurveRequest &curve, StressK
   if (effect.rule == MeanStress::Rule::fkm)
     effect.sensitivity = mean_stress_sensitivity(fkm_material(curve.material), *curve.strength, kind);
   return effect;
+}
+
+/// The factors of a curve that are not 1, and its ratio.
+std::string factors_text(const CurveRequest &curve, const SnCurve &made)
+{
+  std::string text;
+  const auto  add = [&](const std::string &name, double value, double usual)
+  { text += value != usual ? ", " + name + " " + short_text(value) : ""; };
+  add("design factor", curve.design_factor, 1.);
+  add("safety factor", curve.safety, 1.);
+  add("damage sum", curve.damage_sum, 1.);
+  if (made.ratio)
+    text += ", R " + short_text(*made.ratio);
+  return text + (curve.stress_relieved ? ", 60 % of compressive parts" : "");
 }
 
 } // namespace
@@ -50,6 +69,9 @@ DamageRule damage_rule(const LifeRequest &life, const CurveRequest &curve, Stres
     rule.miner       = life.miner == "original"     ? Miner::original
                        : life.miner == "elementary" ? Miner::elementary
                                                     : Miner::consequent;
+    for (SnPiece &piece : rule.curve.pieces) // failure at D = damage_sum is failure at 1 with fewer cycles
+      piece.constant *= curve.damage_sum;
+    rule.curve.name += factors_text(curve, rule.curve);
     require_valid(rule.mean_stress, rule.curve.ratio);
     return rule;
   }

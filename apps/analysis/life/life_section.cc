@@ -52,19 +52,26 @@ std::string error_words(const LifePlace &worst)
 
 std::string rule_words(const LifeResult &found)
 {
-  return "Curve " + found.rule.curve.name + "; " + found.measure + ", mean stress: " + found.mean_stress +
-         ", Palmgren-Miner: " + found.miner + ", residue: " + found.residue + ". " + std::to_string(found.n_states) +
-         " states, " + short_text(found.step, 3) + " s apart, at " + std::to_string(found.n_points) +
-         " points; cycles were counted at " + std::to_string(found.looked_at) + ", the others are excluded by bounds.";
+  return "Curve " + found.rule.curve.name + "; " + found.asked.measure + ", mean stress: " + found.asked.mean_stress +
+         ", Palmgren-Miner: " + found.asked.miner + ", residue: " + found.asked.residue + ". " +
+         std::to_string(found.n_states) + " states, " + short_text(found.step, 3) + " s apart, at " +
+         std::to_string(found.n_points) + " points; cycles were counted at " + std::to_string(found.looked_at) +
+         ", the others are excluded by bounds.";
+}
+
+std::string rounded_percent(double share)
+{
+  constexpr double tenths = 1e3; // of a percent: what remains is rounding or of no effect on a life
+  return short_text(std::round(tenths * share) / 10.) + " %";
 }
 
 std::string steadiness_words(const LifeResult &found)
 {
   if (std::isfinite(found.stroke_change))
-    return "The damage of the last two windows differs by " + percent(found.stroke_change, 2) + ".";
+    return "The damage of the last two windows differs by " + rounded_percent(found.stroke_change) + ".";
   if (std::isfinite(found.closing))
-    return "The stress at the end differs from that at the start by " + percent(found.closing, 2) +
-           " of its range, so each repetition starts with a jump.";
+    return "The stress at the end differs from that at the start by " + rounded_percent(found.closing) +
+           " of its range.";
   return "";
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -85,9 +86,9 @@ std::optional<Corner> corner_at(int point, const std::vector<Triangle> &triangle
 /// A stress as a weighted sum of those at points.
 using Weights = std::vector<std::pair<int, double>>;
 
-/// Adds the point of a triangle below y; false: no triangle is there.
-bool add_stress_at(const Vector3d &y, double factor, double nearest, const std::vector<Triangle> &triangles,
-                   const LifeSkin &skin, Weights &weights)
+/// Adds the point of a triangle below y, and returns the triangle; null: none is there.
+const Triangle *add_stress_at(const Vector3d &y, double factor, double nearest, const std::vector<Triangle> &triangles,
+                              const LifeSkin &skin, Weights &weights)
 {
   constexpr double rounding = 1e-6; // of barycentric coordinates on a common side
   for (const Triangle &triangle : triangles)
@@ -102,9 +103,30 @@ bool add_stress_at(const Vector3d &y, double factor, double nearest, const std::
       continue;
     weights.insert(weights.end(),
                    {{triangle[0], factor * (1. - v - w)}, {triangle[1], factor * v}, {triangle[2], factor * w}});
-    return true;
+    return &triangle;
   }
-  return false;
+  return nullptr;
+}
+
+/// Its length in a direction.
+double extent(const Triangle &triangle, const Vector3d &direction, const LifeSkin &skin)
+{
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const int i : triangle)
+  {
+    const double x = direction.dot(skin.position[std::size_t(i)]);
+    low = std::min(low, x), high = std::max(high, x);
+  }
+  return high - low;
+}
+
+/// The smallest distance of the extrapolation points from the line and from each other, in t.
+double resolution(const std::vector<double> &distances)
+{
+  double smallest = distances.front();
+  for (std::size_t k = 1; k < distances.size(); ++k)
+    smallest = std::min(smallest, distances[k] - distances[k - 1]);
+  return smallest;
 }
 
 double factor_at_zero(const std::vector<double> &distances, std::size_t k)
@@ -162,8 +184,30 @@ std::vector<WeldPoint> area(const WeldRequest &weld, const std::vector<char> &on
   return chosen;
 }
 
-std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vector<char>> &on, const LifeSkin &skin)
+std::string in_mm(double length)
 {
+  return short_text(1e3 * length, 3) + " mm";
+}
+
+std::string doubt_of(const WeldRequest &weld, double largest, bool reentrant)
+{
+  const std::string name    = "life: the weld '" + weld.name + "' ";
+  const double      allowed = weld.thickness > 0. ? resolution(weld.distances) * weld.thickness : 0.;
+  constexpr double  uneven  = 1.25; // meshers exceed the size that was asked for by so much
+  if (weld.thickness == 0. && reentrant)
+    return name + "uses the stress in a re-entrant corner, which is singular, so no mesh resolves it; give its "
+                  "'thickness' for the hot-spot stress";
+  if (weld.thickness > 0. && largest > uneven * allowed)
+    return name + "is extrapolated from elements of " + in_mm(largest) +
+           ", too large for its distances; use elements of " + in_mm(allowed) + " there, or larger distances (IIW)";
+  return "";
+}
+
+std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vector<char>> &on, const LifeSkin &skin,
+                            std::string &doubt)
+{
+  double                 largest   = 0.;
+  bool                   reentrant = false;
   std::vector<WeldPoint> chosen;
   const auto             first = triangles_on(on[0], skin), second = triangles_on(on[1], skin);
   for (std::size_t i = 0; i < on[0].size(); ++i)
@@ -177,19 +221,29 @@ std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vect
       direction = vector_of(*weld.direction);
     if (direction.dot(here->inwards) < 0.)
       direction = -direction;
+    constexpr double corner = 0.1; // sine of 6 degrees: a chord of a curved surface is no corner
+    reentrant               = reentrant || here->normal.dot(there->inwards.normalized()) > corner;
     Weights weights{{int(i), 1.}};
     if (weld.thickness > 0.)
     {
       weights.clear();
-      bool reaches = true;
+      double across_here = 0.;
+      bool   reaches     = true;
       for (std::size_t k = 0; k < weld.distances.size() && reaches; ++k)
-        reaches = add_stress_at(skin.position[i] + weld.distances[k] * weld.thickness * direction,
-                                factor_at_zero(weld.distances, k), 0.5 * weld.thickness, first, skin, weights);
+      {
+        const Triangle *triangle =
+            add_stress_at(skin.position[i] + weld.distances[k] * weld.thickness * direction,
+                          factor_at_zero(weld.distances, k), 0.5 * weld.thickness, first, skin, weights);
+        reaches     = triangle != nullptr;
+        across_here = reaches ? std::max(across_here, extent(*triangle, direction, skin)) : across_here;
+      }
       if (!reaches)
         continue;
+      largest = std::max(largest, across_here);
     }
     chosen.push_back({std::move(weights), int(i), across(here->normal, direction)});
   }
+  doubt = doubt_of(weld, largest, reentrant);
   return chosen;
 }
 
@@ -206,7 +260,8 @@ WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem:
     counts += (counts.empty() ? "'" : ", '") + name + "' has " +
               count_text(std::size_t(std::count(on.back().begin(), on.back().end(), 1)), "point");
   }
-  const std::vector<WeldPoint> chosen = on.size() == 1 ? area(weld, on[0], stress, skin) : line(weld, on, skin);
+  std::string                  doubt;
+  const std::vector<WeldPoint> chosen = on.size() == 1 ? area(weld, on[0], stress, skin) : line(weld, on, skin, doubt);
   if (chosen.empty())
     throw std::invalid_argument(
         weld.place + ": the weld '" + weld.name + "' matches no point of the skin (" + counts + "); " +
@@ -214,7 +269,9 @@ WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem:
          : weld.thickness > 0. ? "name two surfaces that meet, the first of which extends " +
                                      short_text(1e3 * weld.distances.back() * weld.thickness) + " mm beyond the line"
                                : "name two surfaces that meet"));
-  return points_of(chosen, stress, skin);
+  WeldPoints points = points_of(chosen, stress, skin);
+  points.doubt      = std::move(doubt);
+  return points;
 }
 
 } // namespace gestell::apps

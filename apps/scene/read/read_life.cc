@@ -18,6 +18,11 @@ const std::vector<Key> &curve_keys()
           .by_default("`table` or `strength`")
           .into(&CurveRequest::notch_class),
       key::choice("standard", {"EN 1993-1-9", "EN 13001-3-1"}, true, "standard that defines `class`"),
+      key::number("slope", kind::number,
+                  "slope of a class of EN 13001-3-1: 3 for welds, 5 for unwelded material and for shear")
+          .above_zero()
+          .by_default("3; shear: 5")
+          .into(&CurveRequest::slope),
       key::composed(
           "table", Key::Form::rows, kind::pressure, {},
           "rows of cycles and stress range, interpolated in logarithms; ranges below the last one cause no damage")
@@ -38,7 +43,16 @@ const std::vector<Key> &curve_keys()
           .into(&CurveRequest::ratio),
       key::number("safety", kind::number, "partial factor, which divides the ranges of the curve")
           .above_zero()
-          .by_default(&CurveRequest::safety)};
+          .by_default(&CurveRequest::safety),
+      key::number("damage_sum", kind::number,
+                  "damage sum at failure, FKM: 0.3 for unwelded steel, cast steel and aluminium, 0.5 for welds, 1 for "
+                  "cast iron. Reported damages are relative to it")
+          .above_zero()
+          .by_default(&CurveRequest::damage_sum),
+      key::truth("stress_relieved", false,
+                 "whether the compressive part of a range counts only 60 %, as EN 1993-1-9 (7.2.1) allows for unwelded "
+                 "and stress-relieved details")
+          .into(&CurveRequest::stress_relieved)};
   return keys;
 }
 
@@ -67,8 +81,7 @@ const std::vector<Key> &block_keys()
 {
   static const std::vector<Key> keys = {
       key::plain("scene", Key::Form::file, "scene of this load, with the same frame"),
-      key::number("repetitions", kind::number, "number of repetitions of its run in the load spectrum")
-          .above_zero()
+      key::number("repetitions", kind::number, "number of repetitions of its run in the load spectrum, at least 1")
           .by_default(&BlockRequest::repetitions)};
   return keys;
 }
@@ -89,8 +102,7 @@ const std::vector<Key> &life_keys()
       key::choice("residue", {"repeated", "half"}, true,
                   "ranges that form no closed cycle: closed by the next repetition of the load, or counted as half "
                   "cycles (ASTM E1049)"),
-      key::number("repetitions", kind::number, "number of repetitions of this run in the load spectrum")
-          .above_zero()
+      key::number("repetitions", kind::number, "number of repetitions of this run in the load spectrum, at least 1")
           .by_default(&LifeRequest::repetitions),
       key::number("strokes", kind::number, "number of strokes that one run represents")
           .above_zero()
@@ -148,6 +160,10 @@ CurveRequest read_curve(const SceneTable &table)
     require_metal("table", curve.points.front()[1]);
   if (table.has("design_factor") && (curve.notch_class || !curve.points.empty()))
     throw table.error("design_factor", "belongs to the FKM curve of 'strength'; remove it");
+  if (curve.slope && !(curve.notch_class && curve.standard == "EN 13001-3-1"))
+    throw table.error("slope", "belongs to a 'class' of standard = \"EN 13001-3-1\"; remove it");
+  if (curve.stress_relieved && !(curve.notch_class && curve.standard == "EN 1993-1-9"))
+    throw table.error("stress_relieved", "belongs to a 'class' of standard = \"EN 1993-1-9\"; remove it");
   return curve;
 }
 
@@ -165,6 +181,8 @@ WeldRequest read_weld(const SceneTable &table, const fem::FrameSpecification &fr
   weld.surfaces = table.texts("surfaces");
   if (weld.surfaces.empty() || weld.surfaces.size() > 2)
     throw table.error("surfaces", "needs one surface or two, got " + std::to_string(weld.surfaces.size()));
+  if (weld.surfaces.size() == 2 && weld.surfaces[0] == weld.surfaces[1])
+    throw table.error("surfaces", "names '" + weld.surfaces[0] + "' twice; name two surfaces that meet, or one");
   weld.name =
       table.text("name", weld.surfaces.size() == 2 ? weld.surfaces[0] + " to " + weld.surfaces[1] : weld.surfaces[0]);
   std::vector<std::string> declared;
@@ -178,6 +196,13 @@ WeldRequest read_weld(const SceneTable &table, const fem::FrameSpecification &fr
     if (!own->second.plane && !own->second.cylinder && !own->second.box)
       throw table.error("surfaces", "'" + name + "' is selected by a group; a weld needs a plane, a cylinder or a box");
   }
+  for (const fem::InterfaceSpecification &interface : frame.interfaces)
+    if (interface.coupling == fem::InterfaceCoupling::rigid &&
+        std::count(interface.surfaces.begin(), interface.surfaces.end(), weld.surfaces.front()) > 0)
+      throw table.error("surfaces", "'" + weld.surfaces.front() + "' is rigid because of [frame.interface." +
+                                        interface.name +
+                                        "], so it has no stresses; name another surface first, or use "
+                                        "coupling = \"average\" there");
   if (table.has("direction"))
     weld.direction = table.direction("direction");
   if (const auto curve = table.optional_table("curve"))

@@ -11,14 +11,17 @@ namespace gestell::apps
 /// An S-N curve as a scene gives it: by a notch class, by points, or by the strength of unwelded material.
 struct CurveRequest
 {
-  std::optional<double>              notch_class;        ///< range at 2e6 cycles in MPa, as standards print it
-  std::string                        standard;           ///< of the class
-  std::vector<std::array<double, 2>> points;             ///< N, range [Pa]
-  std::optional<double>              strength;           ///< R_m [Pa]
-  std::string                        material;           ///< group of FKM
-  double                             design_factor = 1.; ///< K of FKM
-  std::optional<double>              ratio;              ///< R of the points
-  double                             safety = 1.;        ///< divides the ranges that the curve allows
+  std::optional<double>              notch_class;             ///< range at 2e6 cycles in MPa, as standards print it
+  std::string                        standard;                ///< of the class
+  std::vector<std::array<double, 2>> points;                  ///< N, range [Pa]
+  std::optional<double>              strength;                ///< R_m [Pa]
+  std::string                        material;                ///< group of FKM
+  double                             design_factor = 1.;      ///< K of FKM
+  std::optional<double>              ratio;                   ///< R of the points
+  std::optional<double>              slope;                   ///< of a class of EN 13001-3-1
+  bool                               stress_relieved = false; ///< compressive parts of ranges count 60 %
+  double                             damage_sum      = 1.;    ///< sum of n/N at failure
+  double                             safety          = 1.;    ///< divides the ranges that the curve allows
   std::string                        place;
 };
 

@@ -87,13 +87,22 @@ KeyPart part(const std::string &what, const Fill &fill)
 
 } // namespace
 
+KeyPart scene_part(const std::string &what, const SceneNode &scene)
+{
+  return part(what, [&](Sha256 &hash) { add(scene, hash); });
+}
+
+KeyPart files_part(const std::string &what, const SceneNode &scene)
+{
+  return part(what, [&](Sha256 &hash) { add_files(scene, hash); });
+}
+
 std::vector<KeyPart> run_key(const SceneNode &scene, const coupling::Machine &machine,
                              const coupling::InitialState &start)
 {
   return {part("the program",
                [](Sha256 &hash) { hash.update(std::string(version) + coupling::sha256_of_file("/proc/self/exe")); }),
-          part("the scene", [&](Sha256 &hash) { add(scene, hash); }),
-          part("a file that the scene names", [&](Sha256 &hash) { add_files(scene, hash); }),
+          scene_part("the scene", scene), files_part("a file that the scene names", scene),
           part("the frame or the mass, damping and stiffness of the machine",
                [&](Sha256 &hash) { add_matrices(machine.linear(), hash); }),
           part("the initial state",

@@ -16,6 +16,10 @@ struct KeyPart
   std::string what, hash;
 };
 
+/// Keys of a scene, or of a part of it, and the bytes of the files that it names.
+KeyPart scene_part(const std::string &what, const SceneNode &scene);
+KeyPart files_part(const std::string &what, const SceneNode &scene);
+
 /**
  * All inputs of a run: the program file, the scene keys with overrides (comments and the order of lines do not count),
  * the bytes of referenced files, the matrices of the machine and its initial state.

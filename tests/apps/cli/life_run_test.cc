@@ -23,6 +23,20 @@ public:
     return gestell("life " + folder_.file("own.toml", "extends = 'bar_life.toml'\n" + more) + folder_.option() +
                    options);
   }
+  /// `gestell life RESULT`
+  Answer again(const std::string &options) const
+  {
+    return gestell("life '" + folder_.results().string() + "' --quiet" + options);
+  }
+  std::string summary_again() const { return read(folder_.results().string() + "_life/summary.json"); }
+  /// Replaces the states of the run; returns those that were there.
+  std::string states(const std::string &text) const
+  {
+    const std::string before = read(folder_.results() / "life_states.bin");
+    std::ofstream(folder_.results() / "life_states.bin") << text;
+    return before;
+  }
+  void remove(const std::string &file) const { std::filesystem::remove(folder_.results() / file); }
   /// A study of two forces: the damage of each.
   std::vector<double> damage_of(const std::string &first, const std::string &second) const
   {
@@ -39,6 +53,7 @@ public:
   }
   double      number(const std::vector<std::string> &path) const { return json_number(summary(), path); }
   std::string summary() const { return read(folder_.results() / "summary.json"); }
+  std::string results() const { return folder_.results().string(); }
   bool        wrote(const std::string &file) const { return std::filesystem::exists(folder_.results() / file); }
   void        file(const std::string &name, const std::string &text) const { folder_.file(name, text); }
 
@@ -87,6 +102,52 @@ TEST(LifeRun, ChangesReachTheBlocksThatInheritTheirKeys)
   EXPECT_NEAR(bar.number({"life", "damage"}), eleven, slow * eleven);
 }
 
+/// All members of summary.json but times, as they are written.
+std::string life_members(const std::string &summary)
+{
+  const std::size_t begin = summary.find("\"life\": {"), end = summary.find("\"cpu_s\"", begin);
+  return summary.substr(begin, end - begin);
+}
+
+/// With other keys of [life], among them one that reaches a block, as if the run were made again.
+TEST(LifeRun, CountsTheStatesOfARunAgain)
+{
+  const Bar         bar("life_again");
+  const std::string own     = "[[life.block]]\nscene = 'light.toml'\nrepetitions = 100\n[[life.weld]]\nsurfaces = "
+                              "['top', 'tip']\nthickness = '0.2 m'\n";
+  const std::string changes = " --set life.curve.class=63 --set life.repetitions=7 --set life.period=3";
+  bar.file("light.toml", "extends = 'bar_life.toml'\nparameters = { F = '2 MN' }\n");
+  bar.life(own, " --set parameters.T_s=1.5");
+  expect_answer(bar.again(changes), 0, {"class", "63", "results_life"});
+  const std::string again = life_members(bar.summary_again());
+  bar.life(own, " --set parameters.T_s=1.5" + changes);
+  EXPECT_EQ(again, life_members(bar.summary()));
+  EXPECT_GT(again.size(), 1000u);
+}
+
+TEST(LifeRun, NamesWhatStatesDependOn)
+{
+  const Bar bar("life_states");
+  expect_answer(bar.again(""), 2, {"results"});
+  bar.file("light.toml", "extends = 'bar_life.toml'\nparameters = { F = '2 MN' }\n");
+  bar.life("[[life.block]]\nscene = 'light.toml'\n");
+  expect_answer(bar.again(" --set life.step=0.01 --set life.strokes=2 --set run.end='4 s'"), 2,
+                {"depend on life.step, run.end;", "gestell life SCENE"});
+  expect_answer(bar.again(" -o '" + bar.results() + "'"), 2, {"life_states.bin"});
+  bar.file("light.toml", "extends = 'bar_life.toml'\nparameters = { F = '1 MN' }\n");
+  expect_answer(bar.again(""), 2, {"light.toml has changed since", "gestell life SCENE"});
+  bar.file("light.toml", "extends = 'bar_life.toml'\nparameters = { F = '2 MN' }\n");
+  expect_answer(bar.again(""), 0, {"Life of the frame"});
+  const std::string whole = bar.states("");
+  expect_answer(bar.again(""), 2, {"life_states.bin", "gestell life SCENE"});
+  bar.states(whole.substr(0, whole.size() - 1));
+  expect_answer(bar.again(""), 2, {"is damaged", "gestell life SCENE"});
+  bar.remove("life_states.bin");
+  expect_answer(bar.again(""), 2, {"contains no life_states.bin", "[life]"});
+  bar.remove("summary.json");
+  expect_answer(bar.again(""), 2, {"contains no summary.json"});
+}
+
 TEST(LifeRun, IsAnOutputOfStudies)
 {
   const std::vector<double> found = Bar("life_study").damage_of("3.55 MN", "5.325 MN");
@@ -108,8 +169,28 @@ TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
   refused("without = ['life.curve']\n", {"life: needs 'curve'"});
   refused("[[life.weld]]\nsurfaces = ['wall', 'tip']\n", {"matches no point of the skin"});
   refused("[[life.weld]]\nsurfaces = ['tp']\n", {"there is no [frame.surface.tp]", "did you mean"});
+  refused("[[life.weld]]\nsurfaces = ['top', 'top']\n", {"names 'top' twice"});
+  refused("frame.interface.tip.coupling = 'rigid'\n[[life.weld]]\nsurfaces = ['tip']\n",
+          {"'tip' is rigid because of [frame.interface.tip]"});
+  refused("life.repetitions = 0.5\n", {"needs a number of 1 or more"});
+  refused("life.curve.slope = 5\n", {"life.curve.slope", "EN 13001-3-1"});
+  refused("life.curve = { standard = 'EN 13001-3-1', stress_relieved = true }\n", {"stress_relieved", "EN 1993-1-9"});
+  expect_answer(bar.life("", " --life-by parameters.G"), 2, {"--life-by parameters.G"});
+  bar.file("other.toml", "extends = 'bar_life.toml'\nframe.material.E = '200 GPa'\n");
+  refused("[[life.block]]\nscene = 'other.toml'\n", {"has a different frame", "material or dimensions differ"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nreduction.modes = 4\n");
   refused("[[life.block]]\nscene = 'other.toml'\n", {"has a different frame", "4 modes", "8 modes"});
+}
+
+/// Failure at D = 0.3 shortens the life; a mean beyond the strength leaves none, with its reason.
+TEST(LifeRun, FailsAtItsDamageSum)
+{
+  const Bar bar("life_sum");
+  bar.life("life.curve.damage_sum = 0.3\n");
+  EXPECT_NEAR(bar.number({"life", "damage"}), damage / 0.3, slow * damage / 0.3);
+  expect_answer(bar.life("without = ['life.curve.class']\nlife.curve.strength = '30 MPa'\nlife.mean_stress = "
+                         "'goodman'\nrun = { end = '1.5 s' }\noutput = { from = '1 s' }\n"), // 0 to 71 MPa
+                0, {"reaches the tensile strength"});
 }
 
 /// Three quarters of a period are one rise and fall; the stress does not return to where it began.

@@ -1,6 +1,7 @@
 #include "apps/analysis/life/damage/mean_stress.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -33,8 +34,11 @@ double mean_over_amplitude(double R)
 
 double MeanStress::equivalent_range(double range, double mean, std::optional<double> ratio) const
 {
+  if (rule == Rule::eurocode)
+    return range - 0.4 * std::clamp(0.5 * range - mean, 0., range);
   if (rule == Rule::none || !ratio || range <= 0.)
     return range;
+  mean           = shear ? std::abs(mean) : mean;
   const double s = mean_over_amplitude(*ratio);
   if (rule == Rule::fkm)
     return range * haigh_factor(2. * mean / range, sensitivity) / haigh_factor(s, sensitivity);
@@ -46,8 +50,10 @@ double MeanStress::equivalent_range(double range, double mean, std::optional<dou
 
 double MeanStress::largest_factor(double largest_mean, std::optional<double> ratio) const
 {
-  if (rule == Rule::none || !ratio)
+  if (rule == Rule::none || rule == Rule::eurocode || !ratio)
     return 1.;
+  if (shear) // the largest mean does not bound its size
+    largest_mean = 1.;
   if (rule == Rule::fkm) // grows with the mean, at most to that of R >= 0.5; none of a mean below zero exceeds 1
     return haigh_factor(largest_mean > 0. ? 3. : 0., sensitivity) /
            haigh_factor(mean_over_amplitude(*ratio), sensitivity);
@@ -58,6 +64,9 @@ void require_valid(const MeanStress &effect, std::optional<double> ratio)
 {
   if (effect.rule == MeanStress::Rule::goodman && !(effect.tensile_strength > 0.))
     throw std::invalid_argument("the mean stress effect of Goodman needs the tensile strength; give a positive one.");
+  if (effect.rule == MeanStress::Rule::goodman && effect.shear)
+    throw std::invalid_argument(
+        "the mean stress effect of Goodman is one of normal stress; use that of FKM for shear.");
   if (effect.rule == MeanStress::Rule::fkm && !(effect.sensitivity >= 0. && effect.sensitivity < 1.))
     throw std::invalid_argument("the mean stress sensitivity is " + std::to_string(effect.sensitivity) +
                                 "; give a number from 0 to below 1.");

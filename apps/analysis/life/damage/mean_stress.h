@@ -16,7 +16,9 @@ namespace gestell::apps
  *              -1 <= s <= 1 (-inf < R <= 0)   a = a_cycle (1 + M s)
  *              1 < s < 3    (0 < R < 0.5)     a = a_cycle (1 + M) (1 + s M/3) / (1 + M/3)
  *              3 <= s       (R >= 0.5)        a = a_cycle (1 + M)^2 / (1 + M/3)
- * From R = -1 to that of the curve by the inverse of the same rule.
+ *   eurocode  tensile part + 0.6 compressive part of the range (EN 1993-1-9, 7.2.1: unwelded or stress-relieved)
+ * From R = -1 to that of the curve by the inverse of the same rule; eurocode is without R.  The sign of a shear stress
+ * is arbitrary, so that its mean counts by its size.
  */
 struct MeanStress
 {
@@ -24,11 +26,13 @@ struct MeanStress
   {
     none,
     goodman,
-    fkm
+    fkm,
+    eurocode
   };
   Rule   rule             = Rule::none;
-  double tensile_strength = 0.; ///< R_m [Pa], > 0 (goodman)
-  double sensitivity      = 0.; ///< M, 0 <= M < 1 (fkm)
+  double tensile_strength = 0.;    ///< R_m [Pa], > 0 (goodman)
+  double sensitivity      = 0.;    ///< M, 0 <= M < 1 (fkm)
+  bool   shear            = false; ///< not with goodman
 
   /// @param ratio  R of the curve, < 1; none: the mean has no effect
   double equivalent_range(double range, double mean, std::optional<double> ratio) const;

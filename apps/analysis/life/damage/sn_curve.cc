@@ -117,27 +117,31 @@ SnCurve eurocode_curve(double category, StressKind kind, double gamma)
   return curve;
 }
 
-SnCurve crane_curve(double notch_class, StressKind kind, double gamma)
+SnCurve crane_curve(double notch_class, double slope, StressKind kind, double gamma)
 {
   require_class(notch_class, crane_classes(), "EN 13001-3-1" + of_kind(kind));
   require_positive_factor(gamma, "specific resistance factor gamma_mf");
-  return {"EN 13001-3-1, notch class " + text_of(notch_class / megapascal) + of_kind(kind),
-          {line_through(class_cycles, notch_class / gamma, kind == StressKind::direct ? 3. : 5., 0.)},
+  if (slope != 3. && slope != 5.)
+    throw std::invalid_argument("EN 13001-3-1 has no slope " + text_of(slope) + "; give 3 or 5.");
+  return {"EN 13001-3-1, notch class " + text_of(notch_class / megapascal) + ", slope " + text_of(slope) +
+              of_kind(kind),
+          {line_through(class_cycles, notch_class / gamma, slope, 0.)},
           {}};
 }
 
 const std::vector<FkmMaterial> &fkm_materials()
 {
-  // FKM guideline, 6th edition, tables 4.2.1 (f_W, f_tau) and 4.4.2 (a_M, b_M)
+  // FKM guideline, 6th edition 2012, 4.2.1 (f_W, f_tau), 4.4.2 (a_M, b_M), 4.4.3 (second knee); the first four numbers
+  // as in pylife (Bosch Research), strength/fkm_linear
   static const std::vector<FkmMaterial> materials{
       {"steel", 0.45, 0.577, 0.35, -0.1, false},
       {"forged steel", 0.40, 0.577, 0.35, -0.1, false},
       {"case-hardened steel", 0.40, 0.577, 0.35, -0.1, false},
-      {"stainless steel", 0.40, 0.577, 0.35, -0.1, false},
+      {"stainless steel", 0.40, 0.577, 0.35, -0.1, true},
       {"cast steel", 0.34, 0.577, 0.35, 0.05, false},
       {"ductile cast iron", 0.34, 0.65, 0.35, 0.08, false},
       {"malleable cast iron", 0.30, 0.75, 0.35, 0.13, false},
-      {"grey cast iron", 0.30, 0.85, 0., 0.5, false},
+      {"grey cast iron", 0.34, 1.0, 0., 0.5, false},
       {"wrought aluminium", 0.30, 0.577, 1.0, -0.04, true},
       {"cast aluminium", 0.30, 0.75, 1.0, 0.2, true},
   };

@@ -51,12 +51,12 @@ enum class StressKind
 SnCurve eurocode_curve(double category, StressKind kind, double gamma);
 
 /**
- * EN 13001-3-1, annex D: notch class = range [Pa] of 2e6 cycles, 355 to 28 MPa; one line, no cut-off, m = 3 for direct
- * stress, m = 5 for shear.  Plain material, m = 5 there, is a table of one's own.
+ * EN 13001-3-1, annex D: notch class = range [Pa] of 2e6 cycles, 355 to 28 MPa; one line, no cut-off.
+ * @param slope  of the detail: 3 for welds, 5 for plain material and for shear
  * @param gamma  fatigue strength specific resistance factor gamma_mf, > 0
  * @throws std::invalid_argument: no such class (with the nearest one), gamma
  */
-SnCurve crane_curve(double notch_class, StressKind kind, double gamma);
+SnCurve crane_curve(double notch_class, double slope, StressKind kind, double gamma);
 
 /// Groups of material of the FKM guideline.
 struct FkmMaterial
@@ -65,7 +65,7 @@ struct FkmMaterial
   double           fatigue_ratio; ///< f_W: amplitude of the fatigue limit at R = -1 over the tensile strength
   double           shear_ratio;   ///< f_tau: of the limit in shear over that in tension
   double           a_M, b_M;      ///< mean stress sensitivity M = a_M R_m / 1000 MPa + b_M
-  bool             second_knee;   ///< slope 15 from 1e6 to 1e8 cycles (aluminium)
+  bool             second_knee;   ///< slope 15, 25 in shear, from 1e6 to 1e8 cycles (aluminium, austenitic steel)
 };
 const std::vector<FkmMaterial> &fkm_materials();
 /// @throws std::invalid_argument: no such material, with the names

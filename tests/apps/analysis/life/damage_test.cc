@@ -57,14 +57,18 @@ TEST(SnCurve, NamesTheNearestClass)
 {
   expect_refusal([] { eurocode_curve(75. * MPa, StressKind::direct, 1.); }, "nearest one is 71 MPa");
   expect_refusal([] { eurocode_curve(71. * MPa, StressKind::shear, 1.); }, "nearest one is 80 MPa");
-  expect_refusal([] { crane_curve(70e0, StressKind::direct, 1.); }, "nearest one is 28 MPa");
+  expect_refusal([] { crane_curve(70e0, 3., StressKind::direct, 1.); }, "nearest one is 28 MPa");
   expect_refusal([] { eurocode_curve(80. * MPa, StressKind::direct, 0.); }, "gamma_Mf");
   expect_refusal([] { fkm_material("wood"); }, "grey cast iron");
 }
 
+/// EN 13001-3-1: slope 3 of welds, 5 of plain material and shear.
 TEST(CraneCurve, IsOneLine)
 {
-  const SnCurve curve = crane_curve(112. * MPa, StressKind::direct, 1.25);
+  expect_refusal([] { crane_curve(112. * MPa, 4., StressKind::direct, 1.); }, "give 3 or 5");
+  const SnCurve plain = crane_curve(112. * MPa, 5., StressKind::direct, 1.);
+  EXPECT_NEAR(plain.damage(1. * MPa) / plain.damage(2. * MPa), 1. / 32., 1e-12);
+  const SnCurve curve = crane_curve(112. * MPa, 3., StressKind::direct, 1.25);
   EXPECT_NEAR(curve.damage(112. * MPa / 1.25) * 2e6, 1., 1e-12);
   EXPECT_NEAR(curve.damage(1. * MPa) / curve.damage(2. * MPa), 1. / 8., 1e-12);
   EXPECT_EQ(curve.cut_off(), 0.);
@@ -83,6 +87,19 @@ TEST(FkmCurve, FollowsFromTheTensileStrength)
   const SnCurve aluminium = fkm_curve(fkm_material("wrought aluminium"), 300. * MPa, StressKind::direct, 1.);
   EXPECT_NEAR(aluminium.damage(aluminium.cut_off()) * 1e8, 1., 1e-12);
   EXPECT_NEAR(aluminium.cut_off() / aluminium.pieces[0].from, std::pow(0.01, 1. / 15.), 1e-12);
+}
+
+/// Model II of the guideline, of aluminium and austenitic steel: factors 0.74 and 0.83 from 1e6 to 1e8 cycles.
+TEST(FkmCurve, FallsFurtherForAusteniticSteel)
+{
+  for (const auto &[kind, factor] : {std::pair(StressKind::direct, 0.736), std::pair(StressKind::shear, 0.832)})
+  {
+    const SnCurve curve = fkm_curve(fkm_material("stainless steel"), 600. * MPa, kind, 1.);
+    EXPECT_NEAR(curve.cut_off() / curve.pieces[0].from, factor, 5e-4);
+  }
+  const FkmMaterial &grey = fkm_material("grey cast iron"); // R_m 250 MPa: W 0.34 R_m in tension and in shear, M 0.5
+  EXPECT_NEAR(fkm_curve(grey, 250. * MPa, StressKind::shear, 1.).cut_off(), 2. * 0.34 * 250. * MPa, 1.);
+  EXPECT_EQ(mean_stress_sensitivity(grey, 250. * MPa, StressKind::direct), 0.5);
 }
 
 TEST(TableCurve, PassesThroughItsPointsAndMustFall)
@@ -125,12 +142,30 @@ TEST(MeanStress, OfFkmHasFourFieldsThatMeet)
     EXPECT_NEAR(effect.equivalent_range(2., border - 1e-9, -1.), effect.equivalent_range(2., border + 1e-9, -1.), 1e-8);
 }
 
+/// EN 1993-1-9, 7.2.1: the tensile part of the range and 60 % of its compressive part.
+TEST(MeanStress, OfStressRelievedDetailsReducesCompression)
+{
+  const MeanStress relieved{MeanStress::Rule::eurocode};
+  EXPECT_NEAR(relieved.equivalent_range(100., 50., {}), 100., 1e-12) << "from 0 to 100";
+  EXPECT_NEAR(relieved.equivalent_range(100., -50., {}), 60., 1e-12) << "from -100 to 0";
+  EXPECT_NEAR(relieved.equivalent_range(100., -20., {}), 30. + 0.6 * 70., 1e-12) << "from -70 to 30";
+}
+
+TEST(MeanStress, OfShearHasNoSign)
+{
+  const MeanStress effect{MeanStress::Rule::fkm, 0., 0.3, true};
+  EXPECT_EQ(effect.equivalent_range(2., -1.5, -1.), effect.equivalent_range(2., 1.5, -1.));
+  EXPECT_GT(effect.equivalent_range(2., -1.5, -1.), 2.);
+  expect_refusal([] { require_valid({MeanStress::Rule::goodman, 5e8, 0., true}, -1.); }, "use that of FKM");
+}
+
 TEST(MeanStress, NeverExceedsItsLargestFactor)
 {
   std::mt19937                           random(3);
   std::uniform_real_distribution<double> share(-1., 1.);
   for (const MeanStress &effect :
-       {MeanStress{MeanStress::Rule::fkm, 0., 0.4}, MeanStress{MeanStress::Rule::goodman, 3., 0.}})
+       {MeanStress{MeanStress::Rule::fkm, 0., 0.4}, MeanStress{MeanStress::Rule::goodman, 3., 0.},
+        MeanStress{MeanStress::Rule::fkm, 0., 0.4, true}, MeanStress{MeanStress::Rule::eurocode}})
     for (int k = 0; k < 2000; ++k)
     {
       const double range = std::exp(3. * share(random)), mean = 4. * share(random), R = 0.9 * share(random);

@@ -93,6 +93,18 @@ TEST(WeldPoints, HotSpotsOfPolynomialsAreTheirValuesAtTheLine)
       line(0., {}), [](double x) { return 3. - 2. * x; }, 3.); // at the line itself
 }
 
+/// Elements of 0.1 m resolve 0.4 t of 1 m, not of 0.15 m; the line itself is a re-entrant corner.
+TEST(WeldPoints, AreDoubtfulOnACoarseMeshAndInACorner)
+{
+  const Corner corner([](double) { return 1.; });
+  EXPECT_EQ(corner.points(line(1., {0.4, 1.})).doubt, "");
+  EXPECT_EQ(
+      corner.points(line(0.15, {0.4, 1.})).doubt,
+      "life: the weld 'seam' is extrapolated from elements of 100 mm, too large for its distances; use elements of "
+      "60 mm there, or larger distances (IIW)");
+  EXPECT_NE(corner.points(line(0., {})).doubt.find("re-entrant corner"), std::string::npos);
+}
+
 TEST(WeldPoints, AWeldThatMatchesNothingIsRefused)
 {
   const Corner corner([](double) { return 1.; });
