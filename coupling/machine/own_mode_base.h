@@ -31,12 +31,12 @@ public:
   const LinearBase             &plain() const override { return *plain_; }
 
 private:
-  /// A matrix by its values in the modes, and its block of N.
+  /// A matrix by its values in the modes a that it has, in b, and its block of N.
   struct Blocks
   {
-    Eigen::MatrixXd NN;         // [n_N x n_N] of everything
-    PackedMatrix    packed, DS; // NN; D_a S [n1 x n1]
-    Eigen::VectorXd a, b;       // D
+    Eigen::MatrixXd NN;            // [n_N x n_N] of everything beside the frame
+    PackedMatrix    packed, DS, R; // NN of everything; D_a S; R^T
+    Eigen::VectorXd a, b;          // D
   };
   Blocks blocks_of(const Eigen::MatrixXd &A, const Eigen::VectorXd &values) const;
   void   multiply(const Blocks &A, const Eigen::VectorXd &x, Eigen::VectorXd &y) const;
@@ -44,7 +44,6 @@ private:
   OwnModes                    modes_;
   std::unique_ptr<LinearBase> plain_;
   std::vector<int>            N_;
-  PackedMatrix                R_; // [m x n1] R^T
   Blocks                      mass_, damping_, stiffness_;
   mutable Eigen::VectorXd     x_N_, y_N_, r_, t_; ///< padded
 };

@@ -1,6 +1,7 @@
 #include "coupling/machine/own_modes.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "coupling/machine/diagonal_and_rank.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -19,15 +20,38 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Whether A has no entries beside its diagonal, up to the rounding of modes.
+constexpr double rounding = 1e-10; // of modes
+
+/// Roots of the diagonal of A, by which its entries are judged.
+VectorXd scale_of(const MatrixXd &A)
+{
+  constexpr double least = 1e-3; // of the largest damping: that of free and undamped modes is rounding
+  const VectorXd   size  = A.diagonal().cwiseAbs();
+  return size.cwiseMax(least * size.maxCoeff()).cwiseSqrt();
+}
+
+/// Whether A has no entries beside its diagonal, up to rounding.
 bool decouples(const MatrixXd &A)
 {
-  constexpr double rounding = 1e-10,
-                   least    = 1e-3; // of the largest damping: that of free and undamped modes is rounding
-  const VectorXd size       = A.diagonal().cwiseAbs();
-  const VectorXd scale      = size.cwiseMax(least * size.maxCoeff()).cwiseSqrt();
-  const MatrixXd rest       = A - MatrixXd(A.diagonal().asDiagonal());
+  const VectorXd scale = scale_of(A);
+  const MatrixXd rest  = A - MatrixXd(A.diagonal().asDiagonal());
   return (rest.array().abs() <= rounding * (scale * scale.transpose()).array()).all();
+}
+
+/// The damping B of the modes: d, and the dampers between them.
+std::optional<DiagonalAndRank> dampers_between(const MatrixXd &B, Index most)
+{
+  const VectorXd scale = scale_of(B);
+  if (!(scale.maxCoeff() > 0.))
+    return DiagonalAndRank{VectorXd::Zero(B.rows()), MatrixXd(B.rows(), 0), {}};
+  const VectorXd inverse = scale.cwiseInverse();
+  auto           parts   = diagonal_and_rank(inverse.asDiagonal() * B * inverse.asDiagonal(), rounding, most);
+  if (parts)
+  {
+    parts->diagonal.array() *= scale.array().square();
+    parts->G = (scale.asDiagonal() * parts->G).eval();
+  }
+  return parts;
 }
 
 /// The same modes with signs that depend on their shape at the interface V_1 alone.
@@ -53,6 +77,13 @@ std::vector<Index> modes_of_interface(const MatrixXd &V_1, const VectorXd &omega
   std::vector<Index> first(order.data(), order.data() + V_1.rows());
   std::sort(first.begin(), first.end());
   return first;
+}
+
+/// Dampers with which a step in own modes is still cheaper than one with the stored inverse.
+Index most_dampers(Index n1, Index m)
+{
+  constexpr Index share = 4; // measured for n1 = 12, m = 200: n1 + k = 48 needs 3/4 of the time, 70 as much
+  return std::max<Index>(m / share - n1, 0);
 }
 
 void turn_rows(ReducedFrame &frame, const MatrixXd &X)
@@ -85,24 +116,39 @@ std::optional<OwnModes> turn_to_own_modes(ReducedFrame &frame)
   if (!frame.modal || n1 == 0 || m < many || decouples(frame.B.bottomRightCorner(m, m)))
     return {};
   DenseModes own = dense_modes(frame.C, frame.M, cancelled_by_reduction, frame.n_rigid());
-  if (own.omega.size() < n || !decouples(own.V.transpose() * frame.B * own.V))
+  if (own.omega.size() < n)
     return {};
   fix_signs(own.V, n1);
+  const auto damping = dampers_between(own.V.transpose() * frame.B * own.V, most_dampers(n1, m));
+  if (!damping)
+    return {};
   const std::vector<Index> a     = modes_of_interface(own.V.topRows(n1), own.omega);
   std::vector<Index>       order = a;
   for (Index j = 0; j < n; ++j)
     if (!std::binary_search(a.begin(), a.end(), j))
       order.push_back(j);
-  const MatrixXd V = own.V(Eigen::all, order);
+  const MatrixXd V = own.V(Eigen::all, order), G = damping->G(order, Eigen::all);
+  const Index    k = G.cols(), n_a = n1 + k;
 
   OwnModes modes;
-  modes.S       = V.topLeftCorner(n1, n1).inverse();
-  modes.R       = modes.S * V.topRightCorner(n1, m);
-  modes.squares = VectorXd(own.omega.cwiseAbs2())(order);
-  modes.damping = (V.transpose() * frame.B * V).diagonal();
+  modes.S.resize(n_a, n1);
+  modes.R.resize(n_a, m);
+  modes.S.topRows(n1)   = V.topLeftCorner(n1, n1).inverse();
+  modes.R.topRows(n1)   = modes.S.topRows(n1) * V.topRightCorner(n1, m);
+  modes.S.bottomRows(k) = G.topRows(n1).transpose() * modes.S.topRows(n1);
+  modes.R.bottomRows(k) = G.topRows(n1).transpose() * modes.R.topRows(n1) - G.bottomRows(m).transpose();
+  const auto of_all     = [&](const VectorXd &own_values, const VectorXd &of_dampers)
+  {
+    VectorXd all(n_a + m);
+    all << VectorXd(own_values(order)).head(n1), of_dampers, VectorXd(own_values(order)).tail(m);
+    return all;
+  };
+  modes.masses  = of_all(VectorXd::Ones(n), VectorXd::Zero(k));
+  modes.damping = of_all(damping->diagonal, damping->signs);
+  modes.squares = of_all(own.omega.cwiseAbs2(), VectorXd::Zero(k));
   MatrixXd X(n, n);
-  X.leftCols(n1) = V.leftCols(n1) * modes.S;
-  X.rightCols(m) = V.rightCols(m) - V.leftCols(n1) * modes.R;
+  X.leftCols(n1) = V.leftCols(n1) * modes.S.topRows(n1);
+  X.rightCols(m) = V.rightCols(m) - V.leftCols(n1) * modes.R.topRows(n1);
   X.topRows(n1)  = MatrixXd::Identity(n1, n);
   turn_rows(frame, X);
   return modes;

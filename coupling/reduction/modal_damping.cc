@@ -22,8 +22,8 @@ fem::ModalDamping modal_operator(fem::FrameMatrices &frame, const Eigen::MatrixX
   ModesAtPoints modes{omega, frame.picture.points};
   if (frame.picture.displacement.rows() > 0)
     modes.shapes = frame.picture.displacement * V;
-  return {symmetric_product(frame.M, V),
-          matched(frame.modal_damping_ratio, modes, frame.statements).modal_dampers(omega)};
+  return {symmetric_product(frame.M, V), modal_dampers(matched(frame.modal_damping_ratio, modes, frame.statements),
+                                                       omega, V.transpose() * symmetric_product(frame.B, V))};
 }
 
 } // namespace

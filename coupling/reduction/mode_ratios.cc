@@ -1,11 +1,15 @@
 #include "coupling/reduction/mode_ratios.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "coupling/integration/system/dense_solvers.h"
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -18,6 +22,7 @@ namespace
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Complex = std::complex<double>;
 
 /// A mode of the frame that may be the measured one.
 struct Candidate
@@ -124,6 +129,91 @@ int mode_of(const fem::NamedRatio &measured, const ModesAtPoints &frame, std::ve
   return best->mode;
 }
 
+/// A mode with a ratio of its own.
+struct NamedMode
+{
+  Eigen::Index           mode; ///< in ascending order, with rigid-body modes
+  int                    number;
+  const fem::NamedRatio *ratio;
+};
+
+std::vector<NamedMode> named_modes(const fem::ModalRatios &ratios, const VectorXd &omega)
+{
+  std::vector<NamedMode> found;
+  for (Eigen::Index j = 0, elastic = 0; j < omega.size(); ++j)
+  {
+    if (!(omega[j] > 0.))
+      continue;
+    const fem::NamedRatio *own = nullptr; // a number before an interval
+    for (const fem::NamedRatio &one : ratios.named)
+      if (one.mode == elastic || (!own && one.mode < 0 && two_pi * one.from <= omega[j] && omega[j] < two_pi * one.to))
+        own = &one;
+    if (own)
+      found.push_back({j, int(elastic) + 1, own});
+    ++elastic;
+  }
+  return found;
+}
+
+/// Symmetric damping between modes, B = G diag(lambda) G^T.
+class DampingBetween
+{
+public:
+  explicit DampingBetween(const MatrixXd &B)
+  {
+    const SymmetricEigenSolver solver(B);
+    constexpr double           rounding = 1e-15; // of eigenvalues
+    const VectorXd             size     = solver.eigenvalues().cwiseAbs();
+    std::vector<Eigen::Index>  kept;
+    for (Eigen::Index i = 0; i < size.size(); ++i)
+      if (size[i] > rounding * size.maxCoeff())
+        kept.push_back(i);
+    lambda_ = solver.eigenvalues()(kept);
+    G_      = solver.eigenvectors()(Eigen::all, kept);
+  }
+
+  /// s b^T K^-1 b, K = s^2 E + s (B + diag(d)) + diag(omega^2) of the modes other than j, b the entries of B to them.
+  Complex effect_on(Eigen::Index j, const VectorXd &d, const VectorXd &omega, const Complex &s) const
+  {
+    Eigen::VectorXcd inverse  = (s * s + s * d.array() + omega.array().square()).inverse();
+    inverse[j]                = 0.;
+    const Eigen::MatrixXcd Gc = G_.cast<Complex>(), T = Gc.transpose() * (inverse.asDiagonal() * Gc);
+    const Eigen::VectorXcd b = lambda_.cwiseProduct(G_.row(j).transpose()).cast<Complex>();
+    const Eigen::MatrixXcd K = MatrixXd::Identity(T.rows(), T.cols()) + s * (lambda_.cast<Complex>().asDiagonal() * T);
+    const Eigen::VectorXcd x = Eigen::PartialPivLU<Eigen::MatrixXcd>(K).solve(b);
+    return s * (b.transpose() * (T * x)).value();
+  }
+
+private:
+  VectorXd lambda_;
+  MatrixXd G_;
+};
+
+/// d of the modes with ratios of their own, one after the other until they do not change.
+void solve_named(const std::vector<NamedMode> &named, const VectorXd &omega, const MatrixXd &B, VectorXd &d)
+{
+  const DampingBetween between(B);
+  constexpr int        most   = 100;
+  constexpr double     end    = 1e-14; // of omega
+  double               change = 1.;
+  VectorXd             size   = omega; // |s|
+  for (int i = 0; i < most && change > end; ++i)
+  {
+    change = 0.;
+    for (const NamedMode &one : named)
+    {
+      const auto    j    = one.mode;
+      const double  zeta = one.ratio->ratio, eta = std::sqrt(1. - zeta * zeta), square = omega[j] * omega[j];
+      const Complex by   = between.effect_on(j, d, omega, size[j] * Complex(-zeta, eta));
+      const double  half = 0.5 * by.imag() / eta;
+      size[j]            = half + std::sqrt(half * half + square);
+      const double next  = zeta * (size[j] + square / size[j]) - B(j, j) + by.real();
+      change             = std::max(change, std::abs(next - d[j]) / omega[j]);
+      d[j]               = next;
+    }
+  }
+}
+
 } // namespace
 
 fem::ModalRatios matched(fem::ModalRatios ratios, const ModesAtPoints &modes, std::vector<std::string> &statements)
@@ -152,6 +242,26 @@ fem::ModalRatios matched(fem::ModalRatios ratios, const ModesAtPoints &modes, st
   return ratios;
 }
 
+VectorXd modal_dampers(const fem::ModalRatios &ratios, const VectorXd &omega, const MatrixXd &B)
+{
+  VectorXd   d     = ratios.modal_dampers(omega);
+  const auto named = named_modes(ratios, omega);
+  if (named.empty() || B.isZero(0.))
+    return d;
+  solve_named(named, omega, B, d);
+  constexpr double rounding = 1e-12; // of omega
+  for (const NamedMode &one : named)
+  {
+    const double zeta = one.ratio->ratio, missing = 0.5 * d[one.mode] / omega[one.mode];
+    if (!(missing >= -rounding))
+      refuse(*one.ratio, "mode " + std::to_string(one.number) + " of the frame, " + rounded(omega[one.mode] / two_pi) +
+                             " Hz, has a ratio of " + percent(zeta) + ", but the dampers of the frame alone give it " +
+                             percent(zeta - missing) + "; give at least this, or weaken the dampers of foundations");
+    d[one.mode] = std::max(d[one.mode], 0.);
+  }
+  return d;
+}
+
 void add_modal_damping(ReducedFrame &frame, const fem::ModalRatios &ratios)
 {
   if (!ratios.any())
@@ -160,9 +270,13 @@ void add_modal_damping(ReducedFrame &frame, const fem::ModalRatios &ratios)
   ModesAtPoints    modes{own.omega, frame.points};
   if (frame.displacement.rows() > 0)
     modes.shapes = frame.displacement.cast<double>() * own.V;
-  const Eigen::VectorXd d = matched(ratios, modes, frame.statements).modal_dampers(own.omega);
-  const Eigen::MatrixXd Z = frame.M * own.V;
+  const VectorXd d =
+      modal_dampers(matched(ratios, modes, frame.statements), own.omega, own.V.transpose() * frame.B * own.V);
+  const MatrixXd Z = frame.M * own.V;
   frame.B += Z * d.asDiagonal() * Z.transpose();
+  for (fem::FrameOutput &output : frame.outputs) // like inertia, these forces act on masses
+    if (output.on_a.size() > 0)
+      output.on_v += Z * d.cwiseProduct(own.V.transpose() * output.on_a);
 }
 
 } // namespace gestell::coupling

@@ -37,13 +37,28 @@ struct ModesAtPoints
 fem::ModalRatios matched(fem::ModalRatios ratios, const ModesAtPoints &modes, std::vector<std::string> &statements);
 
 /**
+ * The modal dampers d [1/s] of ratios that are matched, in addition to the damping B = Phi^T B Phi of the modes:
+ * 2 zeta omega, and for modes with a ratio of their own what is missing to it, so that the roots of
+ *
+ *     (s^2 E + s (B + diag(d)) + diag(omega^2)) y = 0
+ *
+ * that belong to them have s = |s| (-zeta +- i sqrt(1 - zeta^2)), the coupling by B included.
+ *
+ * @param omega  ascending [rad/s]; rigid-body modes 0
+ * @throws std::invalid_argument with the place of a ratio below what B alone gives its mode
+ *
+ * Source: docs/theory/reduction.md (10b).
+ */
+Eigen::VectorXd modal_dampers(const fem::ModalRatios &ratios, const Eigen::VectorXd &omega, const Eigen::MatrixXd &B);
+
+/**
  * Adds modal damping to a reduced or small frame, on its own modes, (C* - omega^2 M*) phi = 0 with Phi^T M* Phi = E:
  *
- *     B* += M* Phi diag(2 zeta omega) Phi^T M*
+ *     B* += M* Phi diag(d) Phi^T M*
  *
- * Every mode that `gestell modes` prints for the supported frame then has exactly its ratio zeta, in addition to what
- * dampers in B* give it.  Matches of measured modes become statements of the frame.
- * @throws std::invalid_argument as matched() does
+ * Modes with a ratio of their own then have exactly this in `gestell modes`; to all others 2 zeta omega is added,
+ * beside the dampers in B*.  Matches of measured modes become statements of the frame.
+ * @throws std::invalid_argument as matched() and modal_dampers() do
  *
  * Source: docs/theory/reduction.md (10).
  */

@@ -1,6 +1,7 @@
 #include "coupling/reduction/projection.h"
 
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/reduction/shapes/interface_statics.h"
 #include "fem/assembly/rigid_body_modes.h"
 #include "fem/assembly/rigid_motions.h"
 
@@ -112,6 +113,28 @@ ReducedFrame project(const fem::FrameMatrices &frame, const ReductionBasis &basi
   reduced.n_cells = frame.n_cells;
   reduced.mass    = frame.mass;
   return reduced;
+}
+
+void balance_forces(ReducedFrame &reduced, const fem::FrameMatrices &frame, const FixedInterfaceFrame &held,
+                    const ReductionBasis &basis, const MatrixXd &answers)
+{
+  const std::vector<std::size_t> which = force_outputs(frame.outputs);
+  if (which.empty())
+    return;
+  MatrixXd modal(basis.m(), answers.cols()); // V22^T r_2
+  for (std::size_t k = 0; k < which.size(); ++k)
+    modal.col(Eigen::Index(k)) = basis.fixed_modes().transpose() * frame.outputs[which[k]].on_q;
+  const MatrixXd z    = answers - basis.fixed_modes() * basis.omega0.cwiseAbs2().cwiseInverse().asDiagonal() * modal;
+  const MatrixXd on_a = basis.T.transpose() * held.mass_times(z),
+                 on_v = basis.T.transpose() * symmetric_product(frame.B, z);
+  for (std::size_t k = 0; k < which.size(); ++k)
+  {
+    fem::FrameOutput &row = reduced.outputs[which[k]];
+    if (row.on_a.size() == 0)
+      row.on_a.setZero(on_a.rows());
+    row.on_a -= on_a.col(Eigen::Index(k));
+    row.on_v -= on_v.col(Eigen::Index(k));
+  }
 }
 
 void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, const FixedInterfaceFrame &held,

@@ -25,6 +25,19 @@ namespace gestell::coupling
 ReducedFrame project(const fem::FrameMatrices &frame, const ReductionBasis &basis, ReducedMatrices star,
                      const Eigen::MatrixXd &load, const Eigen::MatrixXd &beyond);
 
+/**
+ * Balances the forces of the frame with its inertia, however few modes: to the rows of force_outputs() the static
+ * answer beyond the basis to inertia and dampers is added (mode acceleration).  With rows r on q,
+ *
+ *     z = C22^-1 r_2 - V22 diag(1/omega_0^2) V22^T r_2,     on_a -= T^T M z,     on_v -= T^T B z.
+ *
+ * @param answers  [n x k] C22^-1 r_2
+ *
+ * Source: docs/theory/reduction.md (7a).
+ */
+void balance_forces(ReducedFrame &reduced, const fem::FrameMatrices &frame, const FixedInterfaceFrame &held,
+                    const ReductionBasis &basis, const Eigen::MatrixXd &answers);
+
 /// Uses the number of rigid-body modes of the full frame: with a single interface all of C*_11 is rounding, which is
 /// removed along these modes; their frequencies are zero.
 void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, const FixedInterfaceFrame &held,

@@ -109,7 +109,8 @@ ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionO
   auto [frequencies, limit] = estimate(space, space.star, options);
   StaticRemainder remainder = static_remainder(statics.response.loads, space.basis, statics.load);
 
-  ReducedFrame reduced       = project(frame, space.basis, std::move(space.star), statics.load, remainder.deflection);
+  ReducedFrame reduced = project(frame, space.basis, std::move(space.star), statics.load, remainder.deflection);
+  balance_forces(reduced, frame, statics.held, space.basis, statics.forces);
   reduced.n_fixed_modes      = n_fixed;
   reduced.left_out           = modes_left_out(statics.response, reduced, n_fixed);
   reduced.frequencies_hz     = frequencies.omega / two_pi;

@@ -115,10 +115,9 @@ std::vector<fem::FrameOutput> outputs_of_parts(const PartUnion &parts, const Mat
 {
   std::vector<fem::FrameOutput> outputs = parts.outputs;
   for (fem::FrameOutput &output : outputs)
-  {
-    output.on_q = (G.transpose() * output.on_q).eval();
-    output.on_v = (G.transpose() * output.on_v).eval();
-  }
+    for (VectorXd *row : {&output.on_q, &output.on_v, &output.on_a})
+      if (row->size() > 0)
+        *row = (G.transpose() * *row).eval();
   return outputs;
 }
 

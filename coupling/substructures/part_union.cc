@@ -31,8 +31,9 @@ void add_names(PartUnion &all, const ReducedFrame &part, Index first)
   }
   for (fem::FrameOutput output : part.outputs)
   {
-    output.on_q = shifted_row(output.on_q, first, all.size());
-    output.on_v = shifted_row(output.on_v, first, all.size());
+    for (VectorXd *row : {&output.on_q, &output.on_v, &output.on_a})
+      if (row->size() > 0)
+        *row = shifted_row(*row, first, all.size());
     all.outputs.push_back(std::move(output));
   }
 }

@@ -88,8 +88,9 @@ void turn_outputs(ReducedFrame &part, const Matrix3d &Q, const MatrixXd &S)
 {
   for (fem::FrameOutput &output : part.outputs)
   {
-    output.on_q               = (S.transpose() * output.on_q).eval();
-    output.on_v               = (S.transpose() * output.on_v).eval();
+    for (Eigen::VectorXd *row : {&output.on_q, &output.on_v, &output.on_a})
+      if (row->size() > 0)
+        *row = (S.transpose() * *row).eval();
     output.under_acceleration = (Q * output.under_acceleration).eval();
   }
 }

@@ -46,12 +46,17 @@ void require_valid(const Support &support)
                                 " acts in no direction; fix x, y or z, or give a foundation a stiffness [N/m].");
 }
 
-/// Rows of C of the cells, summed over the displacements of each output [3 n_nodes x n_outputs].
-/// @param output_of  a displacement, or -1
-Eigen::SparseMatrix<double> summed_rows(const std::vector<int> &output_of, int n_outputs, const QuadraticMesh &mesh,
-                                        const CellMaterials &materials)
+/// Rows of the cells' C and M, summed over the displacements of each output [3 n_nodes x n_outputs].
+struct SummedRows
 {
-  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::SparseMatrix<double> C, M;
+};
+
+/// @param output_of  a displacement, or -1
+SummedRows summed_rows(const std::vector<int> &output_of, int n_outputs, const QuadraticMesh &mesh,
+                       const CellMaterials &materials)
+{
+  std::vector<Eigen::Triplet<double>> stiffness, mass;
   CellValues                          values(mesh, CellPoints::rule);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
@@ -62,14 +67,23 @@ Eigen::SparseMatrix<double> summed_rows(const std::vector<int> &output_of, int n
     if (std::all_of(own.begin(), own.end(), [&](int i) { return output_of[i] < 0; }))
       continue;
     const Eigen::MatrixXd C = tangent_stiffness(values.of(cell), mesh, materials, cell);
+    const Eigen::MatrixXd M = mass_matrix(values.of(cell), materials[cell].rho);
     for (std::size_t i = 0; i < own.size(); ++i)
       if (const int output = output_of[own[i]]; output >= 0)
         for (std::size_t j = 0; j < own.size(); ++j)
-          entries.emplace_back(own[j], output, C(Eigen::Index(j), Eigen::Index(i)));
+        {
+          stiffness.emplace_back(own[j], output, C(Eigen::Index(j), Eigen::Index(i)));
+          if (i % 3 == j % 3)
+            mass.emplace_back(own[j], output, M(Eigen::Index(j / 3), Eigen::Index(i / 3)));
+        }
   }
-  Eigen::SparseMatrix<double> rows(Eigen::Index(output_of.size()), n_outputs);
-  rows.setFromTriplets(entries.begin(), entries.end());
-  return rows;
+  const auto matrix = [&](const std::vector<Eigen::Triplet<double>> &entries)
+  {
+    Eigen::SparseMatrix<double> rows(Eigen::Index(output_of.size()), n_outputs);
+    rows.setFromTriplets(entries.begin(), entries.end());
+    return rows;
+  };
+  return {matrix(stiffness), matrix(mass)};
 }
 
 /// sum_d k_d a_d a_d^T
@@ -178,7 +192,7 @@ Eigen::SparseMatrix<double> foundations(const std::vector<SupportedPatch> &suppo
 
 std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const QuadraticMesh &mesh,
                                         const CellMaterials &materials, const AffineConstraints &affine,
-                                        const Eigen::VectorXd &nodal_mass, double rayleigh_stiffness)
+                                        const Eigen::VectorXd &nodal_mass, const std::array<double, 2> &rayleigh)
 {
   const int                n = affine.n_displacements();
   std::vector<int>         clamped_at(n, -1); // output of the first support that holds the displacement
@@ -202,16 +216,17 @@ std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &suppo
           }
       outputs.push_back(std::move(output));
     }
-  const Eigen::SparseMatrix<double> rows = summed_rows(clamped_at, int(outputs.size()), mesh, materials);
+  const SummedRows rows = summed_rows(clamped_at, int(outputs.size()), mesh, materials);
   for (std::size_t k = 0; k < outputs.size(); ++k)
     if (supports[k / 3].support.kind == SupportKind::clamped)
     {
       std::vector<char> counted(n, 0);
       std::transform(clamped_at.begin(), clamped_at.end(), counted.begin(), [k](int at) { return at == int(k); });
-      const Eigen::VectorXd of_cells = affine.gather(Eigen::VectorXd(rows.col(Eigen::Index(k))));
+      const Eigen::VectorXd of_cells = affine.gather(Eigen::VectorXd(rows.C.col(Eigen::Index(k))));
+      outputs[k].on_a                = affine.gather(Eigen::VectorXd(rows.M.col(Eigen::Index(k))));
       outputs[k].on_q = of_cells + affine.gather(held_foundations_row(supports, &Support::stiffness, counted));
-      outputs[k].on_v =
-          rayleigh_stiffness * of_cells + affine.gather(held_foundations_row(supports, &Support::damping, counted));
+      outputs[k].on_v = rayleigh[0] * outputs[k].on_a + rayleigh[1] * of_cells +
+                        affine.gather(held_foundations_row(supports, &Support::damping, counted));
     }
   return outputs;
 }

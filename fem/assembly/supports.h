@@ -42,17 +42,16 @@ Eigen::SparseMatrix<double> foundations(const std::vector<SupportedPatch> &suppo
  * Forces of supports on the frame, "support.NAME.x", ".y", ".z" [N]; a foot pressed down gives z > 0.
  *
  * Foundation:  -K/A int u dA - D/A int u' dA,  K = sum_d k_d a_d a_d^T  and D alike.
- * Clamped:      sum over held nodes of the row of C for direction d, and beta times it of damping after Rayleigh; with
+ * Clamped:      sum over held nodes of the rows of C u + M u'' for direction d and of damping after Rayleigh; with
  *               what foundations that share nodes with it push them by; less their weight, so that at rest the supports
- *               carry all of the frame.  Their inertia M u'', which
- *               moves only with the elements at the clamp, is not contained, nor alpha M u'.  Damping by modal ratios
- *               has no force on a support.  A node of several supports counts for the first.
+ *               carry all of the frame, and in motion all of its inertia.  A node of several supports counts for the
+ *               first.
  *
- * @param nodal_mass          [nodes] sums of the rows of M [kg].
- * @param rayleigh_stiffness  beta [s] of all cells.
+ * @param nodal_mass  [nodes] sums of the rows of M [kg].
+ * @param rayleigh    alpha [1/s] and beta [s] of all cells.
  */
 std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &supports, const QuadraticMesh &mesh,
                                         const CellMaterials &materials, const AffineConstraints &affine,
-                                        const Eigen::VectorXd &nodal_mass, double rayleigh_stiffness);
+                                        const Eigen::VectorXd &nodal_mass, const std::array<double, 2> &rayleigh);
 
 } // namespace gestell::fem

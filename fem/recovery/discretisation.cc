@@ -149,8 +149,8 @@ void add_matrices(const Ingredients &of, CellSums cells, FrameMatrices &frame)
   const Eigen::Vector3d middle                                                     = middle_of_nodes(mesh);
   const NodalMasses     masses = nodal_masses(mesh, materials, middle);
   weigh(of, masses, middle, frame);
-  for (FrameOutput &output :
-       support_forces(supports, mesh, materials, affine, masses.mass, specification.rayleigh_stiffness))
+  for (FrameOutput &output : support_forces(supports, mesh, materials, affine, masses.mass,
+                                            {specification.rayleigh_mass, specification.rayleigh_stiffness}))
     frame.outputs.push_back(std::move(output));
   frame.rigid_motions = rigid_coordinates(mesh, frame.facts.whole.centre, affine, nodes);
   frame.translations  = frame.rigid_motions.leftCols(3);

@@ -87,17 +87,11 @@ public:
     if (int(modes.size()) < mode_)
       throw std::invalid_argument("--damping-for: mode " + std::to_string(mode_) + " does not exist; the machine has " +
                                   count_text(modes.size(), "mode"));
-    return modes.back();
-  }
-
-  double operator()(double zeta) const
-  {
-    const double found = mode(zeta).damping_ratio;
-    if (std::isnan(found))
+    if (std::isnan(modes.back().damping_ratio))
       throw std::invalid_argument("--damping-for: mode " + std::to_string(mode_) +
                                   " has no damping ratio if frame.damping.ratio is " + percent(zeta) +
                                   ": it is overdamped, or dampers couple it with other modes; choose another mode");
-    return found;
+    return modes.back();
   }
 
 private:
@@ -161,31 +155,36 @@ public:
     const coupling::ReducedFrame *frame = session.machine().small().model().reduced_frame();
     coupling::Linearisation       how{scene.modes.open};
     how.geometric = result.requested.geometric;
-    const RatioOfFrame ratio(scene, *frame, how, mode);
-    DampingFor         found;
-    found.mode = mode, found.wanted = wanted, found.without = ratio(0.);
-    found.frequency_hz          = ratio.mode(0.).frequency_hz;
+    const RatioOfFrame   ratio(scene, *frame, how, mode);
+    DampingFor           found;
+    const coupling::Mode bare = ratio.mode(0.);
+    found.mode = mode, found.wanted = wanted;
+    found.frequency_hz = bare.frequency_hz, found.without = bare.damping_ratio;
     constexpr double given_back = 1e-12, largest = 0.999; // of a ratio, rounding; of a frame that still vibrates
     if (found.without > wanted + given_back)
       throw std::invalid_argument(wanted_text() + ": the mode has a damping ratio of " + percent(found.without) +
                                   " without damping of the frame, whose ratio would have to be negative; weaken other "
                                   "dampers, or request a higher ratio");
-    const auto excess = [&, wanted = wanted](double z) { return ratio(z) - wanted; };
-    double     high   = std::min(largest, std::max(2. * wanted, 1e-3));
-    double     above  = excess(high);
-    while (above < 0. && high < largest)
+    found.reached     = found.without;
+    const auto excess = [&, wanted = wanted](double z)
     {
-      high  = std::min(largest, 2. * high);
-      above = excess(high);
+      found.reached = ratio.mode(z).damping_ratio;
+      return found.reached - wanted;
+    };
+    if (found.without < wanted - given_back)
+    {
+      double high = std::min(largest, std::max(2. * wanted, 1e-3)), above = excess(high);
+      while (above < 0. && high < largest)
+      {
+        high  = std::min(largest, 2. * high);
+        above = excess(high);
+      }
+      if (above < 0.)
+        throw std::invalid_argument(
+            wanted_text() + ": even a ratio of " + short_text(largest) + " gives only " + percent(wanted + above) +
+            ", because the frame contributes too little to this mode; add dampers that act on it");
+      found.frame_ratio = root_of(excess, 0., found.without - wanted, high, above, given_back);
     }
-    if (above < 0.)
-      throw std::invalid_argument(
-          wanted_text() + ": even a ratio of " + short_text(largest) + " gives only " + percent(wanted + above) +
-          ", because the frame contributes too little to this mode; add dampers that act on it");
-    found.frame_ratio = found.without >= wanted - given_back
-                            ? 0.
-                            : root_of(excess, 0., found.without - wanted, high, above, given_back);
-    found.reached     = ratio(found.frame_ratio);
     result.answers.push_back(as_answer(std::move(found)));
     return AnalysisOutcome::done;
   }

@@ -26,7 +26,27 @@ MatrixXd acceleration_load(const FixedInterfaceFrame &held, const fem::FrameMatr
   return frame.acceleration_load.rows() > 0 ? frame.acceleration_load : held.mass_times(frame.translations);
 }
 
+MatrixXd answers_of_forces(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame)
+{
+  const std::vector<std::size_t> which = force_outputs(frame.outputs);
+  MatrixXd                       Y(frame.M.rows(), Eigen::Index(which.size()));
+  for (std::size_t k = 0; k < which.size(); ++k)
+    Y.col(Eigen::Index(k)) = frame.outputs[which[k]].on_q;
+  if (Y.cols() > 0)
+    held.solve_in_place(Y);
+  return Y;
+}
+
 } // namespace
+
+std::vector<std::size_t> force_outputs(const std::vector<fem::FrameOutput> &outputs)
+{
+  std::vector<std::size_t> which;
+  for (std::size_t k = 0; k < outputs.size(); ++k)
+    if (outputs[k].unit == "N" || outputs[k].unit == "N m")
+      which.push_back(k);
+  return which;
+}
 
 ReductionBasis static_basis(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame)
 {
@@ -46,6 +66,7 @@ InterfaceStatics::InterfaceStatics(const fem::FrameMatrices &frame, const Reduct
   basis    = static_basis(held, frame);
   load     = acceleration_load(held, frame);
   response = residual_flexibility(held, basis, load);
+  forces   = answers_of_forces(held, frame);
   relief   = options.inertia_relief ? inertia_relief_shapes(held, frame, basis.q1) : MatrixXd(frame.M.rows(), 0);
   if (may_move_freely(basis.C_11))
     held.take_back(); // motions of the whole frame follow from its C

@@ -7,11 +7,16 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace gestell::coupling
 {
 
 /// T without modes.
 ReductionBasis static_basis(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame);
+
+/// Positions of the forces and moments among the outputs of a frame: sections and supports, but no stresses.
+std::vector<std::size_t> force_outputs(const std::vector<fem::FrameOutput> &outputs);
 
 /// Common start of every reduction: the factor of C22, the constraint modes, and deflections independent of modes.
 struct InterfaceStatics
@@ -28,6 +33,7 @@ struct InterfaceStatics
   ReductionBasis      basis;    ///< constraint modes only
   Eigen::MatrixXd     load;     ///< [n x 3] of a unit acceleration in x, y, z, or [n x 0]
   ResidualFlexibility response; ///< to the inertia of constraint modes, and to the load
+  Eigen::MatrixXd     forces;   ///< [n x k] C22^-1 of the rows on q of force_outputs()
   Eigen::MatrixXd     relief;   ///< shapes [n x 6, 3 or 0], see inertia_relief_shapes()
 };
 

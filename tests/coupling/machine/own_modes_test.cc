@@ -16,10 +16,11 @@ using coupling::ReducedFrame;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int n1 = 6, m = 70, n = n1 + m;
+constexpr int n1 = 6, m = 80, n = n1 + m; // up to 14 dampers are cheap
 
-/// In Craig-Bampton coordinates, with another damping ratio in each of its first own modes.
-ReducedFrame frame_with_modal_damping(int n_damped = n, bool floats = false)
+/// In Craig-Bampton coordinates, with another damping ratio in each of its first own modes, and dampers between points
+/// that move with all coordinates.
+ReducedFrame frame_with_modal_damping(int n_damped = n, bool floats = false, int n_dampers = 0)
 {
   std::srand(5);
   const auto   square = [](const MatrixXd &A) -> MatrixXd { return A * A.transpose(); };
@@ -42,7 +43,12 @@ ReducedFrame frame_with_modal_damping(int n_damped = n, bool floats = false)
   const MatrixXd Z     = frame.M * own.V;
   VectorXd       ratio = VectorXd::LinSpaced(n, 0.02, 0.1);
   ratio.tail(n - n_damped).setZero();
-  frame.B                 = Z * ratio.cwiseProduct(own.omega).asDiagonal() * Z.transpose();
+  frame.B = Z * ratio.cwiseProduct(own.omega).asDiagonal() * Z.transpose();
+  for (int i = 0; i < n_dampers; ++i)
+  {
+    const VectorXd g = 10. * VectorXd::Random(n);
+    frame.B += g * g.transpose();
+  }
   frame.frequencies_hz    = own.omega / (2. * M_PI);
   frame.translations_load = MatrixXd::Random(n, 3);
   return frame;
@@ -83,26 +89,42 @@ TEST(OwnModes, AreLedBackToThoseOfTheFixedInterface)
   EXPECT_LT((C - frame.C).norm(), 1e-8 * frame.C.norm());
 }
 
-TEST(OwnModes, MayBeFreeOrUndamped)
+TEST(OwnModes, MayBeFreeOrUndampedOrHaveAFewDampersBetweenThem)
 {
-  for (ReducedFrame frame : {frame_with_modal_damping(20), frame_with_modal_damping(n, true)})
+  for (ReducedFrame frame : {frame_with_modal_damping(20), frame_with_modal_damping(n, true),
+                             frame_with_modal_damping(n, false, 3), frame_with_modal_damping(n, true, 6)})
   {
     const std::optional<OwnModes> modes = coupling::turn_to_own_modes(frame);
     ASSERT_TRUE(modes);
-    MatrixXd B                = MatrixXd::Zero(n, n); // of the modes, in the turned coordinates
-    B.topLeftCorner(n1, n1)   = modes->S.transpose() * modes->damping.head(n1).asDiagonal() * modes->S;
-    B.topRightCorner(n1, m)   = -modes->S.transpose() * modes->damping.head(n1).asDiagonal() * modes->R;
+    const auto n_a            = modes->R.rows();
+    MatrixXd   B              = MatrixXd::Zero(n, n); // of the modes, in the turned coordinates
+    const auto a              = modes->damping.head(n_a).asDiagonal();
+    B.topLeftCorner(n1, n1)   = modes->S.transpose() * a * modes->S;
+    B.topRightCorner(n1, m)   = -modes->S.transpose() * a * modes->R;
     B.bottomLeftCorner(m, n1) = B.topRightCorner(n1, m).transpose();
-    B.bottomRightCorner(m, m) = modes->R.transpose() * modes->damping.head(n1).asDiagonal() * modes->R;
+    B.bottomRightCorner(m, m) = modes->R.transpose() * a * modes->R;
     B.bottomRightCorner(m, m).diagonal() += modes->damping.tail(m);
     EXPECT_LT((B - frame.B).norm(), 1e-10 * frame.B.norm());
   }
 }
 
-TEST(OwnModes, AreLeftAloneWhereDampingDoesNotFitThemOrStepsAreCheapAnyway)
+TEST(OwnModes, HaveAsManyDampersAsTheFrame)
 {
-  ReducedFrame damped = frame_with_modal_damping();
-  damped.B(0, 0) += 1e3; // a damper of a foundation
+  for (const int dampers : {0, 1, 3, 6})
+  {
+    ReducedFrame frame = frame_with_modal_damping(n, false, dampers);
+    EXPECT_EQ(coupling::turn_to_own_modes(frame)->R.rows(), n1 + dampers);
+  }
+  ReducedFrame rayleigh = frame_with_modal_damping(n);
+  rayleigh.B            = 3. * rayleigh.M + 1e-5 * rayleigh.C;
+  const VectorXd g      = VectorXd::Random(n);
+  rayleigh.B += g * g.transpose();
+  EXPECT_EQ(coupling::turn_to_own_modes(rayleigh)->R.rows(), n1 + 1);
+}
+
+TEST(OwnModes, AreLeftAloneWhereDampersAreManyOrStepsAreCheapAnyway)
+{
+  ReducedFrame damped = frame_with_modal_damping(n, false, 15);
   EXPECT_FALSE(coupling::turn_to_own_modes(damped));
   ReducedFrame rayleigh = frame_with_modal_damping();
   rayleigh.B            = 3. * rayleigh.M + 1e-5 * rayleigh.C;
@@ -120,10 +142,10 @@ MatrixXd with_body(const MatrixXd &frame, double own, double between)
   return whole;
 }
 
-TEST(OwnModes, MultiplyAndSolveAsTheMatricesDo)
+void expect_products_and_solutions(ReducedFrame frame)
 {
-  ReducedFrame                  frame = frame_with_modal_damping();
   const std::optional<OwnModes> modes = coupling::turn_to_own_modes(frame);
+  ASSERT_TRUE(modes);
   const MatrixXd M = with_body(frame.M, 2., 0.), B = with_body(frame.B, 10., 5.), C = with_body(frame.C, 0., 1e6);
   const coupling::OwnModeBase base(M, B, C, *modes, std::make_unique<coupling::DenseBase>(M, B, C));
   const VectorXd              x = VectorXd::Random(n + 1), f = 1e-3 * VectorXd::Random(n + 1);
@@ -135,22 +157,35 @@ TEST(OwnModes, MultiplyAndSolveAsTheMatricesDo)
   base.stiffness_times(x, y);
   EXPECT_LT((y - C * x).norm(), 1e-12 * (C * x).norm());
 
-  const double   h_beta = 1e-5;
-  const auto     solver = base.factorise(1., h_beta, h_beta * h_beta);
-  const MatrixXd A      = M + h_beta * B + h_beta * h_beta * C;
-  const VectorXd whole = A.ldlt().solve(f), step = A.ldlt().solve(M * x + f);
-  solver->solve(f, y);
-  EXPECT_LT((y - whole).norm(), 1e-10 * whole.norm());
-  solver->solve_leading(x, f, y);
-  solver->solve_following(x, f, y);
-  EXPECT_LT((y - step).norm(), 1e-10 * step.norm());
+  const double h_beta = 1e-5;
+  for (const std::array<double, 3> &w : {std::array{1., h_beta, h_beta * h_beta}, std::array{1., 0., 0.},
+                                         std::array{1., 0., h_beta * h_beta}, std::array{1., -h_beta, 1e-10}})
+  {
+    const auto     solver = base.factorise(w[0], w[1], w[2]);
+    const MatrixXd A      = w[0] * M + w[1] * B + w[2] * C;
+    const VectorXd whole = A.ldlt().solve(f), step = A.ldlt().solve(M * x + f);
+    solver->solve(f, y);
+    EXPECT_LT((y - whole).norm(), 1e-12 * whole.norm());
+    if (solver->leading().empty())
+      continue;
+    solver->solve_leading(x, f, y);
+    solver->solve_following(x, f, y);
+    EXPECT_LT((y - step).norm(), 1e-12 * step.norm());
+  }
+}
+
+TEST(OwnModes, MultiplyAndSolveAsTheMatricesDo)
+{
+  for (const bool floats : {false, true})
+    for (const int dampers : {0, 1, 14})
+      expect_products_and_solutions(frame_with_modal_damping(n, floats, dampers));
 }
 
 TEST(OwnModes, DoNotChangeTheMotionOfTheInterface)
 {
   const auto run = [](bool modal)
   {
-    ReducedFrame frame = frame_with_modal_damping();
+    ReducedFrame frame = frame_with_modal_damping(n, false, 4);
     frame.modal        = modal; // false: its coordinates stay
     coupling::MachineModel model;
     model.set_frame(frame);

@@ -163,6 +163,39 @@ TEST(ModalDamping, IsGivenBackByTheModesOfTheReducedAndOfTheSmallFrameInAnyCoord
   check(dense_frame(frame), "in other coordinates");
 }
 
+TEST(ModalDamping, OfSingleModesContainsWhatDampersOfTheFrameDo)
+{
+  Lattice small;
+  small.nx = 4, small.nz = 3;
+  for (const Lattice &lattice : {Lattice(), small})
+  {
+    auto       frame   = frame_of(lattice);
+    const auto reduced = [&]
+    { return lattice.nx == small.nx ? dense_frame(frame) : reduce_frame(frame, with_modes(20)); };
+    const auto alone = modes_of(reduced(), 10);
+    const auto hz    = [&](int j) { return alone[std::size_t(j)].frequency_hz; };
+    const auto more  = [&](int j) { return alone[std::size_t(j)].damping_ratio + 0.01 * (1 + j % 3); };
+    ASSERT_GT(alone[2].damping_ratio, 0.002) << "or there is nothing to contain";
+    fem::ModalRatios ratios   = 0.03;
+    ratios.named              = {{more(1), 1},
+                                 {more(2), 2},
+                                 {more(4), -1, 0.5 * (hz(3) + hz(4)), 0.5 * (hz(4) + hz(5))},
+                                 {more(8), -1, 1.001 * hz(8), 1.001 * hz(8)}};
+    frame.modal_damping_ratio = ratios;
+    const auto modes          = modes_of(reduced(), 10);
+    for (const int j : {1, 2, 4, 8})
+      EXPECT_NEAR(modes[std::size_t(j)].damping_ratio, more(j), 1e-9 * more(j)) << "mode " << j + 1;
+    for (const int j : {0, 3, 5})
+      EXPECT_NEAR(modes[std::size_t(j)].damping_ratio, alone[std::size_t(j)].damping_ratio + 0.03, 3e-3)
+          << "beside them, but for the coupling of modes: " << j + 1;
+
+    frame.modal_damping_ratio.named          = {{0.5 * alone[2].damping_ratio, 2}};
+    frame.modal_damping_ratio.named[0].place = "there";
+    tests::expect_refusal(reduced, "there: mode 3 of the frame, ");
+    tests::expect_refusal(reduced, ", but the dampers of the frame alone give it ");
+  }
+}
+
 TEST(ModalDamping, OfEveryModeByItsNumberIsThatOfOneRatio)
 {
   auto frame                = without_dampers(Lattice());

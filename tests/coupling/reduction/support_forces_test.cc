@@ -16,6 +16,7 @@ namespace
 {
 
 using coupling::ReducedFrame;
+using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -105,6 +106,106 @@ TEST(SupportForces, CutsAndStressesAtRestAreThoseOfTheFullFrame)
           << full.name;
     }
   }
+}
+
+/// Both bars with damping of every kind, and a plane between cells.
+std::vector<fem::FrameMatrices> damped_bars()
+{
+  std::vector<fem::FrameMatrices> frames;
+  for (const fem::Support &feet :
+       {clamped("feet", {"z0"}), foundation("feet", {"z0"}, {{2e8, 3e8, 4e8}}, {{3e5, 1e5, 2e5}})})
+  {
+    auto specification       = free_steel();
+    specification.supports   = {feet};
+    specification.interfaces = {interface("top", {"z1"}, fem::InterfaceCoupling::average)};
+    specification.cuts       = {{"middle", {{0., 0., 0.75}}, {{0., 0., 1.}}, "", {{1., 0., 0.}}, {{0.1, 0.05, 0.7}}}};
+    specification.rayleigh_mass       = 4.;
+    specification.rayleigh_stiffness  = 1e-5;
+    specification.modal_damping_ratio = 0.03;
+    frames.push_back(fem::discretise(box_mesh({{2, 2, 6}}, {{0.4, 0.3, 1.5}}), specification));
+  }
+  return frames;
+}
+
+/// A motion of a reduced frame that obeys its equations under forces at the interface.
+struct Motion
+{
+  VectorXd p, v, a; // of (q1, modes)
+  VectorXd braked;  ///< a, and the accelerations whose inertia is the damping from outside: alpha M v and ratios
+  VectorXd force;   // [n1]
+};
+
+Motion random_motion(const ReducedFrame &frame, const MatrixXd &B_inside, const Vector3d &g)
+{
+  const auto n     = frame.M.rows();
+  VectorXd   force = 1e4 * VectorXd::Random(n);
+  force.tail(n - frame.n_interface).setZero();
+  const auto M = frame.M.lu();
+  Motion     motion{1e-4 * VectorXd::Random(n), 1e-1 * VectorXd::Random(n), {}, {}, force.head(frame.n_interface)};
+  motion.a      = M.solve(force + frame.translations_load * g - frame.B * motion.v - frame.C * motion.p);
+  motion.braked = motion.a + M.solve((frame.B - B_inside) * motion.v);
+  return motion;
+}
+
+double force_of(const ReducedFrame &frame, const std::string &name, const Motion &motion, const Vector3d &g)
+{
+  const fem::FrameOutput &row = output_of(frame, name);
+  return row.on_q.dot(motion.p) + row.on_v.dot(motion.v) + row.on_a.dot(motion.a) + row.under_acceleration.dot(g);
+}
+
+/// [n x 6] rigid motions N V1 V2 T M1 M2 of the coordinates above the plane, zero below.  The three coordinates of a
+/// node follow each other.
+MatrixXd motions_above(const fem::FrameMatrices &frame)
+{
+  MatrixXd       R = frame.rigid_motions;
+  const Vector3d centre(frame.centre.data()), about(0.1, 0.05, 0.7);
+  const auto     top   = frame.interface_coordinates();
+  bool           above = false;
+  for (Eigen::Index i = 0; i < R.rows(); ++i)
+  {
+    if (R(i, 0) > 0.5)
+      above = centre[2] + R(i, 4) > 0.75 + 1e-9; // u = t + theta x r
+    if (!above && !std::binary_search(top.begin(), top.end(), int(i)))
+      R.row(i).setZero();
+  }
+  MatrixXd W(R.rows(), 6);
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vector3d axis = Vector3d::Unit((k + 2) % 3);
+    W.col(k)            = R.leftCols(3) * axis;
+    W.col(3 + k)        = R.rightCols(3) * axis + R.leftCols(3) * axis.cross(centre - about);
+  }
+  return W;
+}
+
+TEST(SupportForces, AndSectionsBalanceTheInertiaOfEveryMotionWhateverModesAreOmitted)
+{
+  const Vector3d g(1., -2., -9.81);
+  std::srand(1);
+  for (const auto &frame : damped_bars())
+    for (const int modes : {0, 3, 10})
+    {
+      const coupling::ReducedModel model  = coupling::reduce_with_basis(frame, with_modes(modes));
+      const ReducedFrame          &few    = model.frame;
+      const MatrixXd              &T      = model.basis.T;
+      const MatrixXd               in     = T.transpose() * (frame.B - 4. * frame.M) * T;
+      const Motion                 motion = random_motion(few, in, g);
+      VectorXd                     load   = frame.acceleration_load * g - frame.M * (T * motion.braked);
+      load(model.basis.q1) += motion.force;
+      const Eigen::Matrix<double, 6, 1> section = motions_above(frame).transpose() * load;
+      const Vector3d whole = frame.mass * g - frame.acceleration_load.transpose() * (T * motion.braked) +
+                             frame.rigid_motions(model.basis.q1, Eigen::seqN(0, 3)).transpose() * motion.force;
+      for (int k = 0; k < 6; ++k)
+      {
+        const std::string name    = std::string("cut.middle") + fem::section_components[std::size_t(k)][0];
+        const double      between = output(frame, name).under_acceleration.dot(g);
+        EXPECT_NEAR(force_of(few, name, motion, g), section[k] + between, 1e-8 * section.norm())
+            << modes << " modes, " << name;
+      }
+      for (int d = 0; d < 3; ++d)
+        EXPECT_NEAR(force_of(few, std::string("support.feet.") + "xyz"[d], motion, g), -whole[d], 1e-8 * whole.norm())
+            << modes << " modes, along " << d;
+    }
 }
 
 } // namespace

@@ -51,6 +51,34 @@ TwoBars two_bars(bool mirrored)
   return two;
 }
 
+TEST(SectionsOfParts, AndSupportsBalanceTheInertiaOfEveryMotionWhateverModesAreOmitted)
+{
+  std::srand(1);
+  const auto [pieces, Q] = two_bars(true);
+  for (const int modes : {0, 3})
+  {
+    const auto frame =
+        whole(pieces, described(pieces, {weld("middle", {"first", "front"}, {"second", "rear"})}), modes);
+    const Vector3d g(4., -9., 30.), force(3e4, -1e4, 2e4);
+    const auto     n    = frame.M.rows();
+    VectorXd       load = frame.translations_load * g;
+    for (int d = 0; d < 3; ++d)
+      load[frame.interfaces[0].coordinate[d]] += force[d];
+    const VectorXd p = 1e-4 * VectorXd::Random(n), a = frame.M.lu().solve(load - frame.C * p);
+    const Vector3d loads = force + frame.mass * g - frame.translations_load.transpose() * a;
+    for (int d = 0; d < 3; ++d)
+    {
+      const std::string name = std::string("first.support.ground.") + "xyz"[d];
+      const auto        row  = std::find_if(frame.outputs.begin(), frame.outputs.end(),
+                                            [&](const fem::FrameOutput &output) { return output.name == name; });
+      ASSERT_NE(row, frame.outputs.end());
+      EXPECT_NEAR(row->on_q.dot(p) + row->on_a.dot(a) + row->under_acceleration.dot(g), -Q.col(d).dot(loads),
+                  1e-8 * loads.norm())
+          << modes << " modes, " << name;
+    }
+  }
+}
+
 /// Pulled, bent at the free end and hanging along their axis: sigma = (N(x)/A + bending) e_x e_x^T in every part.
 TEST(StressesOfParts, AreExactForLinearStressesInTurnedAndMirroredParts)
 {

@@ -226,12 +226,10 @@ const std::vector<Key> &damping_keys()
                       "`mode`, or a universal file with data sets 55")
                .by_default(""),
            key::number("ratio", kind::number, "damping ratio").by_default("of the file")},
-          "damping ratios of single modes of the supported frame; all other modes have `ratio`; exact in `gestell "
-          "modes`. `mode` has priority over an interval. Measured modes without a number get the mode of the "
-          "frame "
-          "with the most similar shape (MAC) within 30 % of their frequency, or without shapes of the nearest "
-          "frequency "
-          "within 20 %")
+          "damping ratios of single modes of the supported frame, dampers of its supports included; all other modes "
+          "have `ratio` in addition to their dampers; exact in `gestell modes`. `mode` has priority over an interval. "
+          "Measured modes without a number get the mode of the frame with the most similar shape (MAC) within 30 % of "
+          "their frequency, or without shapes of the nearest frequency within 20 %")
           .by_default("none"),
       key::composed("rayleigh", Key::Form::tables, kind::number,
                     {key::number("frequency", kind::frequency, "frequency of a pair").above_zero(),
