@@ -3,6 +3,7 @@
 #include "apps/analysis/life/life_rules.h"
 #include "apps/analysis/life/life_skin.h"
 #include "apps/analysis/life/life_twins.h"
+#include "apps/analysis/life/life_warnings.h"
 #include "apps/analysis/life/weld_points.h"
 
 #include "fem/values/number_text.h"
@@ -43,8 +44,8 @@ public:
     return {
         {"--life-error", &refine_, "errors of the life by modes and time from two further, finer runs"},
         {"--life-by", &keys_,
-         "derivatives d ln(life)/d ln(key) by scene parameters, such as parameters.c_P,parameters.s_cl: four further "
-         "runs each"}};
+         "derivatives d ln(life)/d ln(key) by scene parameters, such as parameters.c_P,parameters.s_cl: four further, "
+         "finer runs each"}};
   }
 
   bool requested(const Scene &scene) const override { return scene.life != nullptr; }
@@ -87,7 +88,7 @@ public:
       LifeResult     found  = life_of(scene, *session.machine().machine.model().reduced_frame(), load);
       found.cpu_s           = double(std::clock() - before) / CLOCKS_PER_SEC;
       if (refine_)
-        refine_error(session, found);
+        refine_error(session, load, found);
       if (!keys_.empty())
         found.derivatives = life_derivatives(session, found, keys_);
       const auto warnings = life_warnings(scene, found);
