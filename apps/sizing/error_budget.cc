@@ -53,6 +53,7 @@ struct Comparison
 {
   std::optional<ModelAnswer> first, second;
   double                     factor = 1.;   ///< from the difference of two values to the error of the first
+  std::vector<double>        factors{};     ///< the same by output, in place of `factor`; empty: not so
   std::string                reason;        ///< the second model; if there is none, the reason
   bool                       exact = false; ///< there is nothing to err
 };
@@ -267,7 +268,14 @@ Comparison BudgetMaker::more_modes_kept()
   more.modes        = more_modes(scene_, run_);
   if (!modes_are_chosen(scene_)) // only statics
     more.reduction = "craig-bampton";
-  return against(more, std::to_string(more.modes) + " modes");
+  Comparison         comparison = against(more, std::to_string(more.modes) + " modes");
+  const ModelAnswer &finer      = *comparison.second;
+  for (const bool recovered : finer.recovered)
+    comparison.factors.push_back(
+        finer.modes >= finer.most_modes
+            ? 1.
+            : truncation_factor(finer.omega, comparison.first->modes, truncation_power(recovered, finer.superposed)));
+  return comparison;
 }
 
 /// Integrates with `exact`, so that later models differ in nothing else; none if it cannot treat the machine.
@@ -313,7 +321,10 @@ BudgetPart BudgetMaker::part_of(std::size_t output, const Comparison &comparison
     if (const Differs event =
             differing_event(*comparison.first, *comparison.second, comparison.first->decided_s[output]))
       return {std::nullopt, "the order of events changes, " + comparison.reason + ": " + *event};
-  return {comparison.factor * std::abs(v - w), comparison.reason};
+  const double factor = comparison.factors.empty() ? comparison.factor : comparison.factors[output];
+  if (!std::isfinite(factor))
+    return {std::nullopt, "the first truncated mode has the frequency of the last one, " + comparison.reason};
+  return {factor * std::abs(v - w), comparison.reason};
 }
 
 /// Sum of two causes; unknown if one of them is.

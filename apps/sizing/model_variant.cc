@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <variant>
 
@@ -59,6 +60,31 @@ void take_run(const coupling::RunResult &run, const std::vector<OutputName> &out
     }
 }
 
+Eigen::VectorXd ascending(Eigen::VectorXd omega)
+{
+  std::sort(omega.begin(), omega.end());
+  return omega;
+}
+
+/// "-frame.cut.columns" is recovered from the motion of the frame, "frame.crown.uz" is that motion.
+void take_recovered(const Scene &scene, const coupling::ReducedFrame &frame, const std::vector<OutputName> &outputs,
+                    ModelAnswer &answer)
+{
+  std::set<std::string> recovered;
+  for (const fem::FrameOutput &output : frame.outputs)
+    for (const char *sign : {"", "-"})
+      recovered.insert(std::string(sign) + "frame." + output.name);
+  for (const SignalRequest &signal : scene.signals)
+  {
+    std::vector<std::string> paths = signal.of;
+    paths.push_back(signal.path);
+    if (std::any_of(paths.begin(), paths.end(), [&](const std::string &path) { return recovered.count(path) > 0; }))
+      for (std::size_t i = 0; i < outputs.size(); ++i)
+        if (outputs[i].signal == signal.name)
+          answer.recovered[i] = true;
+  }
+}
+
 void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<OutputName> &outputs,
                 ModelAnswer &answer)
 {
@@ -90,7 +116,9 @@ int more_modes(const Scene &scene, const ModelAnswer &answer)
   return std::min(answer.most_modes, more_than(modes));
 }
 
-ModelAnswer::ModelAnswer(std::size_t n, double begin) : values(n), sizes(n), units(n), decided_s(n, begin) {}
+ModelAnswer::ModelAnswer(std::size_t n, double begin) : values(n), sizes(n), units(n), decided_s(n, begin), recovered(n)
+{
+}
 
 ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs)
 {
@@ -235,15 +263,15 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
     answer.modes      = int(frame->M.rows()) - frame->n_interface;
     answer.most_modes = answer.n_frame - answer.interface;
     answer.whole      = prepared.companion && !prepared.in_modes;
-    if (prepared.in_modes)
+    take_recovered(other, *frame, outputs, answer);
+    answer.superposed = prepared.in_modes != nullptr;
+    answer.omega      = ascending(answer.superposed ? prepared.machine.superposed_frequencies() : frame->omega0);
+    if (answer.superposed)
     {
       answer.interface  = 0;
       answer.modes      = prepared.machine.size();
       answer.most_modes = int(prepared.in_modes->projection.cols());
-      answer.cutoff_hz  = prepared.machine.superposed_frequencies().maxCoeff() / (2. * M_PI);
     }
-    else if (frame->omega0.size() > 0)
-      answer.cutoff_hz = frame->omega0.maxCoeff() / (2. * M_PI);
   }
   take_modes(other, prepared.small(), outputs, answer);
   const double ready = fem::cpu_time();

@@ -5,6 +5,8 @@
 #include "apps/sizing/model_choices.h"
 #include "apps/sizing/output_name.h"
 
+#include <Eigen/Core>
+
 #include <atomic>
 #include <exception>
 #include <map>
@@ -50,13 +52,15 @@ struct ModelAnswer
   std::vector<std::string>     units;
   std::vector<double>          decided_s; ///< time until which each is decided; for a mode the start of the run
   std::vector<coupling::Event> events;
-  std::string                  method;              ///< of integration, for people
-  int                          n_frame     = 0;     ///< coordinates of the unreduced frame; 0: none
-  int                          interface   = 0;     ///< coordinates that stay physical
-  int                          modes       = -1;    ///< that the frame keeps, or that the machine is superposed of
-  int                          most_modes  = 0;     ///< that it could keep
-  double                       cutoff_hz   = 0.;    ///< of the highest mode that the frame keeps; 0: none
-  bool                         whole       = false; ///< the frame is not reduced
+  std::string                  method;             ///< of integration, for people
+  int                          n_frame    = 0;     ///< coordinates of the unreduced frame; 0: none
+  int                          interface  = 0;     ///< coordinates that stay physical
+  int                          modes      = -1;    ///< that the frame keeps, or that the machine is superposed of
+  int                          most_modes = 0;     ///< that it could keep
+  Eigen::VectorXd              omega;              ///< [modes] theirs [rad/s], ascending; empty: not known
+  bool                         whole      = false; ///< the frame is not reduced
+  bool                         superposed = false; ///< the modes are those of the machine
+  std::vector<char>            recovered;          ///< [outputs] an internal force or a stress of the frame
   double                       prepare_cpu = 0., run_cpu = 0.; ///< [s]
 
   double cpu() const { return prepare_cpu + run_cpu; }

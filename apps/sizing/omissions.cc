@@ -214,7 +214,8 @@ void Questions::kinds_of_interfaces()
 
 void Questions::fast_loads()
 {
-  const double cutoff = model_.answer.cutoff_hz;
+  const Eigen::VectorXd &omega  = model_.answer.omega;
+  const double           cutoff = omega.size() > 0 ? omega[omega.size() - 1] / (2. * M_PI) : 0.;
   if (!modes_are_chosen(model_.scene) || !(cutoff > 0.))
     return;
   for (const LoadRequest &load : model_.scene.loads)

@@ -80,6 +80,21 @@ std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> poin
   return next;
 }
 
+double truncation_power(bool recovered, bool superposed)
+{
+  if (superposed)
+    return recovered ? 0.5 : 1.;
+  return recovered ? 1.5 : 3.;
+}
+
+double truncation_factor(Eigen::VectorXd omega, int kept, double power)
+{
+  if (kept < 0 || kept >= omega.size())
+    return 1.;
+  std::sort(omega.begin(), omega.end());
+  return 1. / (1. - std::pow(omega[kept] / omega[omega.size() - 1], power));
+}
+
 const std::vector<int> &mode_ladder()
 {
   static const std::vector<int> numbers = {0, 2, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <optional>
 #include <vector>
 
@@ -48,6 +50,25 @@ std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> poin
 
 /// Number of modes in mode_ladder() for which a share falls to `aim`: the error is assumed to fall like m^-2 or faster.
 int modes_for(double aim, int modes, double share);
+
+/// Power p with which errors of a reduction fall with the frequency of the first truncated mode,
+/// docs/theory/reduction.md (16g) to (16i): of stresses and internal forces of the frame, which are recovered from its
+/// motion, and of motions and forces of the machine.
+/// @param superposed  the modes are those of the machine (5.5.3/8), without static shapes of its interfaces
+double truncation_power(bool recovered, bool superposed);
+
+/**
+ * The error e of a reduction over its difference to a finer one.  With e ~ omega^-p, omega that of the first truncated
+ * mode,
+ *
+ *     e = difference / (1 - (omega_kept+1 / omega_finer)^p),
+ *
+ * infinite if both frequencies are equal.
+ *
+ * @param omega  of the modes of the finer one, in any order
+ * @param kept   number of modes of the coarser one; 1 if the finer one has no more
+ */
+double truncation_factor(Eigen::VectorXd omega, int kept, double power);
 
 /// Numbers of modes that are tried.
 const std::vector<int> &mode_ladder();

@@ -5,6 +5,7 @@
 #include "apps/analysis/life/life_skin.h"
 #include "apps/analysis/life/life_states.h"
 #include "apps/analysis/life/life_twins.h"
+#include "apps/analysis/life/life_warnings.h"
 #include "apps/analysis/life/weld_points.h"
 #include "apps/session/sensitivity/sensitivity_keys.h"
 
@@ -48,8 +49,8 @@ public:
     return {
         {"--life-error", &refine_, "errors of the life by modes and time from two further, finer runs"},
         {"--life-by", &keys_,
-         "derivatives d ln(life)/d ln(key) by scene parameters, such as parameters.c_P,parameters.s_cl: four further "
-         "runs each"}};
+         "derivatives d ln(life)/d ln(key) by scene parameters, such as parameters.c_P,parameters.s_cl: four further, "
+         "finer runs each"}};
   }
 
   void open(std::string &input, std::vector<std::string> &changes, std::string &folder) override
@@ -110,7 +111,7 @@ public:
       if (!kept_)
         found.states = life_states_bin(session.variant(), frame, load);
       if (refine_)
-        refine_error(session, found);
+        refine_error(session, load, found);
       if (!keys_.empty())
         found.derivatives = life_derivatives(session, found, keys_);
       const auto warnings = life_warnings(scene, found);

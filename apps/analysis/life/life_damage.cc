@@ -1,10 +1,11 @@
 #include "apps/analysis/life/life_damage.h"
 
 #include "apps/analysis/life/damage/plane_search.h"
+#include "apps/analysis/life/damage/point_stress.h"
 #include "apps/analysis/life/life_rules.h"
 #include "apps/analysis/life/life_skin.h"
 #include "apps/analysis/life/weld_points.h"
-#include "apps/output/values/stress_result.h"
+#include "apps/sizing/size_laws.h"
 #include "coupling/frame/stress_field.h"
 #include "coupling/machine/own_modes.h"
 #include "fem/values/number_text.h"
@@ -36,9 +37,10 @@ struct LifeGroup
   const ReducedStress         *stress = nullptr;
   DamageRule                   rule;
   DamageSearch                 search;
-  std::vector<int>             skin;    ///< [points] of the frame's skin; empty: they are these
-  std::optional<ReducedStress> own{};   ///< of a weld
-  std::string                  doubt{}; ///< a warning about the weld
+  double                       strength = 0.; ///< [Pa] R_m of the curve; 0: not given
+  std::vector<int>             skin;          ///< [points] of the frame's skin; empty: they are these
+  std::optional<ReducedStress> own{};         ///< of a weld
+  std::string                  doubt{};       ///< a warning about the weld
 
   int skin_point(int i) const { return skin.empty() ? i : skin[std::size_t(i)]; }
 };
@@ -52,6 +54,7 @@ LifeGroup group_of_skin(const LifeRequest &life, const ReducedFrame &frame, cons
   group.name              = "skin";
   group.stress            = &frame.stress;
   group.rule              = damage_rule(life, life.curve, StressKind::direct);
+  group.strength          = life.curve.strength.value_or(0.);
   group.search.measure    = measure_of(life);
   group.search.directions = skin.directions;
   group.search.position   = skin.position;
@@ -64,11 +67,13 @@ LifeGroup group_of_skin(const LifeRequest &life, const ReducedFrame &frame, cons
 LifeGroup group_of_weld(const LifeRequest &life, const WeldRequest &weld, const Scene &scene, const ReducedFrame &frame,
                         const LifeSkin &skin)
 {
-  const bool directed = weld.surfaces.size() == 2 || weld.direction;
-  WeldPoints points   = weld_points(weld, scene.frame.geometry.surfaces, frame.stress, skin);
-  LifeGroup  group;
-  group.name = weld.name;
-  group.rule = damage_rule(life, weld.curve.value_or(life.curve), weld.shear ? StressKind::shear : StressKind::direct);
+  const bool          directed = weld.surfaces.size() == 2 || weld.direction;
+  const CurveRequest &curve    = weld.curve ? *weld.curve : life.curve;
+  WeldPoints          points   = weld_points(weld, scene.frame.geometry.surfaces, frame.stress, skin);
+  LifeGroup           group;
+  group.name              = weld.name;
+  group.rule              = damage_rule(life, curve, weld.shear ? StressKind::shear : StressKind::direct);
+  group.strength          = curve.strength.value_or(0.);
   group.search.measure    = !directed ? measure_of(life) : weld.shear ? StressMeasure::shear : StressMeasure::normal;
   group.search.counts     = std::vector<char>(points.position.size(), 1);
   group.search.directions = std::move(points.directions);
@@ -93,6 +98,12 @@ double ratio_of_lives(double a, double b)
   return a == b ? 1. : std::max(a / b, b / a);
 }
 
+double largest_von_mises(const ReducedStress &stress, const MatrixXd &states, int point)
+{
+  const MatrixXd S = von_mises_norm() * stress.mean.middleRows<6>(6 * Index(point)).cast<double>();
+  return std::sqrt((S * states).colwise().squaredNorm().maxCoeff());
+}
+
 /// Every second sample of each block.
 LifeLoad half_as_many(const LifeLoad &load)
 {
@@ -109,6 +120,14 @@ MatrixXd without_high_modes(const ReducedFrame &frame, MatrixXd states)
   const Index modes = frame.M.rows() - frame.n_interface;
   states.middleRows(frame.n_interface + modes - modes / 2, modes / 2).setZero();
   return states;
+}
+
+/// From the effect of the higher half of the modes to that of the truncated ones; at least all of it, as resonances in
+/// this half are beyond the law.
+double rest_of_modes(const ReducedFrame &frame)
+{
+  const int modes = int(frame.M.rows()) - frame.n_interface;
+  return std::max(1., truncation_factor(frame.omega0, modes - modes / 2, truncation_power(true, false)) - 1.);
 }
 
 /// Loads for the error of a life.
@@ -198,6 +217,9 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
     place.mean         = largest->mean;
     place.disagreement = coupling::disagreement(frame.stress, load.states.col(largest->end), skin_point);
   }
+  place.row       = at.row;
+  place.strength  = group.strength;
+  place.von_mises = largest_von_mises(*group.stress, load.states, at.point);
   if (const int nearby = frame.stress.nearby[std::size_t(skin_point)]; nearby >= 0)
     place.nearby = frame.stress.rigid[std::size_t(nearby)];
   const auto damage = [&](const MatrixXd &states, const LoadSequence &sequence, double factor)
@@ -210,12 +232,13 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
   }
   if (std::isinf(place.damage)) // life_warnings() gives the reason
     return place;
-  place.error.mesh  = ratio_of_lives(damage(load.states, load.sequence, 1. + place.disagreement), place.damage);
-  place.error.modes = ratio_of_lives(damage(others.without_modes, load.sequence, 1.), place.damage);
-  place.error.time  = std::cbrt(ratio_of_lives(damage(others.coarse.states, others.coarse.sequence, 1.), place.damage));
-  place.shares      = named_shares(
-           frame, others.omega,
-           damage_shares(*group.stress, load.states, load.sequence, group.rule, group.search, at, others.fixed));
+  place.error.mesh = ratio_of_lives(damage(load.states, load.sequence, 1. + place.disagreement), place.damage);
+  place.error.modes =
+      std::pow(ratio_of_lives(damage(others.without_modes, load.sequence, 1.), place.damage), rest_of_modes(frame));
+  place.error.time = std::cbrt(ratio_of_lives(damage(others.coarse.states, others.coarse.sequence, 1.), place.damage));
+  place.shares     = named_shares(
+          frame, others.omega,
+          damage_shares(*group.stress, load.states, load.sequence, group.rule, group.search, at, others.fixed));
   return place;
 }
 
@@ -372,7 +395,8 @@ LifeResult life_of(const Scene &scene, const ReducedFrame &frame, const LifeLoad
   return result;
 }
 
-double damage_at(const Scene &scene, const ReducedFrame &frame, const LifeLoad &load, const LifePlace &place)
+std::vector<double> damages_at(const Scene &scene, const ReducedFrame &frame, const LifeLoad &load,
+                               const LifePlace &place)
 {
   constexpr double here = 1e-3; // of the frame: the same point of a mesh that moves with a dimension
   const LifeSkin   skin = skin_of(frame);
@@ -380,56 +404,11 @@ double damage_at(const Scene &scene, const ReducedFrame &frame, const LifeLoad &
     if (const auto at = std::size_t(place.point); group.name == place.of && at < group.search.position.size())
       if ((group.search.position[at] - place.at).norm() <= here * skin.size)
       {
-        const PointDamage worst =
-            point_damage(*group.stress, load.states, load.sequence, group.rule, group.search, place.point);
-        return on_worst_plane(*group.stress, load.states, load.sequence, group.rule, group.search, worst).damage;
+        const VectorXd x      = stress_history(*group.stress, load.states, group.search, {place.point, 0., place.row});
+        const auto     cycles = count_cycles(extremes_between_samples(x, load.sequence), load.sequence);
+        return damage_per_cycle(cycles, group.rule);
       }
   throw std::runtime_error("the frame of an additional run has a different mesh, without this point");
-}
-
-std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &found)
-{
-  std::vector<std::string> warnings = found.warnings;
-  const LifePlace         *worst    = found.worst();
-  if (!worst)
-    return {"life: no cycle was counted: the stress is constant, or all points of the mesh are next to rigid surfaces; "
-            "refine the mesh"};
-  const auto place = [](const LifePlace &at)
-  { return "(" + short_text(at.at[0]) + " " + short_text(at.at[1]) + " " + short_text(at.at[2]) + ")"; };
-  if (worst->disagreement > resolved_disagreement)
-    warnings.push_back("life: the mesh does not resolve the worst place " + place(*worst) +
-                       ": the stresses of neighbouring elements differ by " + percent(worst->disagreement, 2) +
-                       (std::isfinite(worst->error.mesh)
-                            ? ", a factor of " + short_text(worst->error.mesh, 3) + " on life"
-                            : ", enough for damage") +
-                       "; refine it there, or use the hot-spot stress for a weld");
-  if (found.beside_rigid &&
-      found.beside_rigid->damage > (worst->damage > 0. ? worst->error.total() * worst->damage : 0.))
-    warnings.push_back("life: the damage at " + place(*found.beside_rigid) + ", next to " + found.beside_rigid->nearby +
-                       ", is larger, " + short_text(found.beside_rigid->damage, 3) +
-                       ", but the stress at the edge of a rigid surface is singular, so no mesh resolves it; use "
-                       "coupling = \"average\", or the hot-spot stress for a weld");
-  constexpr double steady = 0.05; // of the damage: 1.6 % of the range with slope 3
-  if (found.stroke_change > steady)
-    warnings.push_back("life: the run ends before the steady state: the damage of the last two windows differs by " +
-                       percent(found.stroke_change, 2) + "; increase run.end, now " +
-                       short_text(scene.run.options.end) +
-                       " s, or start on the periodic solution (start.rule = \"periodic\")");
-  if (found.closing > steady)
-    warnings.push_back("life: the stress at the end of the load differs from that at its start by " +
-                       percent(found.closing, 2) +
-                       " of its range, so the load does not repeat smoothly; count one period only (output.from), or "
-                       "let the run end in its initial state");
-  if (std::isinf(worst->damage))
-    warnings.push_back(
-        "life: the mean stress of a cycle at " + place(*worst) +
-        " reaches the tensile strength, so that mean_stress = \"goodman\" leaves no life; check the unit "
-        "of 'strength' and the load");
-  if (worst->cycles <= 1. && found.closing > steady)
-    warnings.push_back("life: " + short_text(worst->cycles) +
-                       " cycle was counted at the worst place: the run contains only one rise and fall, so "
-                       "smaller repeated cycles are not counted");
-  return warnings;
 }
 
 } // namespace gestell::apps

@@ -4,7 +4,6 @@
 #include "apps/analysis/life/life_result.h"
 #include "coupling/frame/reduced_frame.h"
 
-#include <string>
 #include <vector>
 
 namespace gestell::apps
@@ -13,11 +12,9 @@ namespace gestell::apps
 /// Damage of a load at the worst places of a frame, with its error.
 LifeResult life_of(const Scene &scene, const coupling::ReducedFrame &frame, const LifeLoad &load);
 
-/// Damage of another load at a place.
+/// Damage of each cycle of another load at a place, in the direction found there, of extremes between samples.
 /// @throws std::runtime_error if the frame has other points
-double damage_at(const Scene &scene, const coupling::ReducedFrame &frame, const LifeLoad &load, const LifePlace &place);
-
-/// What makes a life doubtful.
-std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &found);
+std::vector<double> damages_at(const Scene &scene, const coupling::ReducedFrame &frame, const LifeLoad &load,
+                               const LifePlace &place);
 
 } // namespace gestell::apps

@@ -97,13 +97,16 @@ void apply_changes_of(const Variant &own, Variant &block)
 }
 
 /// Another scene on this frame, with the states and stresses that are needed here.
-std::unique_ptr<Session> block_session(Session &own, const BlockRequest &block, const ReducedFrame &frame)
+std::unique_ptr<Session> block_session(Session &own, const BlockRequest &block, const ReducedFrame &frame,
+                                       const Integration &integration = {})
 {
   Variant variant               = block_variant(own.variant(), block);
   Scene   scene                 = variant.scene();
   scene.frame.geometry.stress   = true;
   scene.run.options.states.step = own.scene().run.options.states.step;
-  const std::string place       = block.place + ": the scene \"" + scene.name + "\" ";
+  if (integration)
+    integrate_by(integration, scene);
+  const std::string place = block.place + ": the scene \"" + scene.name + "\" ";
   auto              other =
       std::make_unique<Session>(std::move(variant), std::move(scene), Watch{own.progress(), own.interruption()});
   other->check_run();
@@ -114,9 +117,10 @@ std::unique_ptr<Session> block_session(Session &own, const BlockRequest &block, 
   return other;
 }
 
-void add_block(Session &own, const BlockRequest &block, const ReducedFrame &frame, LifeLoad &load)
+void add_block(Session &own, const BlockRequest &block, const ReducedFrame &frame, const Integration &integration,
+               LifeLoad &load)
 {
-  const auto   other  = block_session(own, block, frame);
+  const auto   other  = block_session(own, block, frame, integration);
   const Result result = other->run();
   if (!result.run->failure.empty() || result.run->interrupted)
     throw std::runtime_error(block.place + ": the run of \"" + other->scene().name +
@@ -155,7 +159,13 @@ void check_blocks(Session &session)
     block_session(session, block, *session.machine().machine.model().reduced_frame());
 }
 
-LifeLoad life_load(Session &session, const coupling::RunResult &run)
+void integrate_by(const Integration &integration, Scene &scene)
+{
+  scene.run.options.method = integration(scene);
+  scene.run.step_given     = true;
+}
+
+LifeLoad life_load(Session &session, const coupling::RunResult &run, const Integration &integration)
 {
   const Scene        &scene = session.scene();
   const LifeRequest  &life  = *scene.life;
@@ -168,7 +178,7 @@ LifeLoad life_load(Session &session, const coupling::RunResult &run)
   if (run.from > begin && run.from - length >= begin - load.step)
     load.before = states_between(scene, frame, run, run.from - length, run.from);
   for (const BlockRequest &block : life.blocks)
-    add_block(session, block, frame, load);
+    add_block(session, block, frame, integration, load);
   weigh(load, session.variant(), scene);
   return load;
 }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <vector>
 
 namespace gestell::apps
@@ -35,9 +36,15 @@ void weigh(LifeLoad &load, const Variant &own, const Scene &scene);
 /// @throws std::invalid_argument for a block with another frame
 void check_blocks(Session &session);
 
+/// Another method of integration for a scene.
+using Integration = std::function<coupling::MethodOptions(const Scene &)>;
+
+void integrate_by(const Integration &integration, Scene &scene);
+
 /// The load of [life] of a session with its finished run; runs the scenes of its blocks.
+/// @param integration  of the blocks; empty: as their scenes say
 /// @throws std::invalid_argument for a block with another frame, std::runtime_error if one does not come to its end
-LifeLoad life_load(Session &session, const coupling::RunResult &run);
+LifeLoad life_load(Session &session, const coupling::RunResult &run, const Integration &integration = {});
 
 /// Some of its samples, in their order; damage of these is not larger.  @param chosen  ascending, some of each block
 LifeLoad thinned(const LifeLoad &load, const std::vector<std::int64_t> &chosen);

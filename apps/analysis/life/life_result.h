@@ -30,7 +30,7 @@ template <class Visitor>
 void describe(Visitor &v, const LifeError &x)
 {
   v("mesh", x.mesh, "1", "stress higher by the disagreement of neighbouring elements");
-  v("modes", x.modes, "1", "without the higher half of the modes");
+  v("modes", x.modes, "1", "truncated modes, from the effect of the higher half of the others");
   v("time", x.time, "1", "a third of what every second state changes");
   v("total", x.total(), "1", "their product");
 }
@@ -49,8 +49,11 @@ struct LifePlace
   double          range = 0., mean = 0.;                               ///< [Pa] largest range, and its mean
   double          utilisation  = 0.; ///< largest equivalent range over the cut-off of the curve; without one 0
   double          disagreement = 0.;
-  std::string     nearby; ///< what makes the surface rigid beside it; "": nothing
-  LifeError       error;
+  double          von_mises    = 0.; ///< [Pa] largest of the load
+  double          strength     = 0.; ///< [Pa] R_m of the curve; 0: not given
+  Eigen::Matrix<double, 1, 6>                 row = Eigen::Matrix<double, 1, 6>::Zero(); ///< of a linear measure
+  std::string                                 nearby; ///< what makes the surface rigid beside it; "": nothing
+  LifeError                                   error;
   std::vector<std::pair<std::string, double>> shares; ///< in the damaging ranges, by size
 };
 
@@ -76,6 +79,7 @@ void describe(Visitor &v, const LifePlace &x)
   v("utilisation", unless_zero(x.utilisation), "1",
     "largest range, corrected for its mean, over the cut-off of the curve; null: it has none");
   v("disagreement", x.disagreement, "1", "disagreement of neighbouring elements, relative");
+  v("von_mises", x.von_mises, "Pa", "largest von Mises stress");
   v("beside", x.nearby, "", "support or interface that makes the surface rigid there; empty: none");
   v("factor", x.error, "", "error as a factor on life");
   v("shares", x.shares, "1", "parts of modes and of static deflections in the damaging ranges");
@@ -112,8 +116,9 @@ struct LifeField
 struct LifeDerivative
 {
   std::string key;
-  double      exponent = 0.; ///< d ln(life) / d ln(key)
-  std::string note;
+  double      exponent = std::numeric_limits<double>::quiet_NaN(); ///< d ln(life) / d ln(key)
+  double      error    = std::numeric_limits<double>::quiet_NaN(); ///< of the differences
+  std::string note{};
 };
 
 template <class Visitor>
@@ -121,6 +126,7 @@ void describe(Visitor &v, const LifeDerivative &x)
 {
   v("key", x.key, "", "key of the scene");
   v("exponent", x.exponent, "1", "d ln(life) / d ln(key): percent of life for a percent of the key");
+  v("error", x.error, "1", "its error, by differences over twice the distance");
   v("note", x.note, "", "why it is doubtful; empty: it is not");
 }
 

@@ -2,6 +2,7 @@
 
 #include "tests/support/csv_table.h"
 #include "tests/support/program.h"
+#include "tests/support/scene_parts.h"
 #include "tests/support/test.h"
 
 namespace gestell::tests
@@ -51,7 +52,14 @@ public:
     const CsvTable runs((folder_.results() / "runs.csv").string());
     return {runs.number(0, "damage"), runs.number(1, "damage")};
   }
-  double      number(const std::vector<std::string> &path) const { return json_number(summary(), path); }
+  double number(const std::vector<std::string> &path) const { return json_number(summary(), path); }
+  /// A number of --life-by.
+  double derivative(const std::string &key, const std::string &name) const
+  {
+    const std::string all = summary();
+    return json_number(all.substr(all.find("\"key\": \"" + key + '"')), {name});
+  }
+  CsvTable    cycles() const { return CsvTable((folder_.results() / "life_cycles.csv").string()); }
   std::string summary() const { return read(folder_.results() / "summary.json"); }
   std::string results() const { return folder_.results().string(); }
   bool        wrote(const std::string &file) const { return std::filesystem::exists(folder_.results() / file); }
@@ -155,6 +163,83 @@ TEST(LifeRun, IsAnOutputOfStudies)
   EXPECT_NEAR(found[1], std::pow(1.5, 3) * damage, slow * std::pow(1.5, 3) * damage);
 }
 
+/// A mass on a spring and the bar in series, with a dashpot, pulls at the bar with k_t F / |k_t - m w^2 + i b w|; its
+/// range to the power -3 is the life.
+TEST(LifeRun, DerivativesOfASineAreThoseOfItsTransferFunction)
+{
+  const Bar bar("life_transfer");
+  bar.life(
+      "without = ['element.load']\n[parameters]\nk_s = 5e7\nm_s = 6.3e5\nb_s = 2.4e6\n[body.mass]\ntype = 'slider'\n"
+      "axis = [1, 0, 0]\nmass = 'm_s'\n[element.spring]\ntype = 'spring-damper'\nfrom = 'mass'\nto = 'frame.tip'\n"
+      "direction = [1, 0, 0]\nstiffness = 'k_s'\n[element.pot]\ntype = 'spring-damper'\nfrom = 'mass'\nto = 'ground'\n"
+      "direction = [1, 0, 0]\ndamping = 'b_s'\n[element.push]\ntype = 'force'\nfrom = 'mass'\ndirection = [1, 0, 0]\n"
+      "harmonics = [{ amplitude = 'F', frequency = '1/T_s' }]\n[run]\nend = 16\n[life]\ncurve = { class = 36 }\n",
+      " --life-by parameters.k_s,parameters.m_s,parameters.b_s,parameters.T_s,parameters.F");
+  const double k = 5e7, m = 6.3e5, b = 2.4e6, w = 2. * M_PI, k_bar = 210e9 * 0.05 / 2.;
+  const double k_t = k * k_bar / (k + k_bar), free = k_t - m * w * w, square = free * free + b * b * w * w;
+  for (const auto &[key, exponent] :
+       {std::pair("k_s", (1. - k_t * free / square) * k_bar / (k + k_bar)), std::pair("m_s", m * w * w * free / square),
+        std::pair("b_s", -b * b * w * w / square), std::pair("T_s", (b * b * w * w - 2. * m * w * w * free) / square),
+        std::pair("F", 1.)})
+  {
+    const std::string name = std::string("parameters.") + key;
+    EXPECT_NEAR(bar.derivative(name, "exponent"), -3. * exponent, 1e-3 * std::abs(3. * exponent)) << key;
+    EXPECT_LT(bar.derivative(name, "error"), 1e-3) << key;
+  }
+  EXPECT_EQ(count(bar.summary(), "\"note\": \"\""), 5);
+}
+
+/// The range of the fifth harmonic is half a percent below the cut-off, or far above it.
+TEST(LifeRun, DerivativesNoteCyclesThatAppear)
+{
+  const Bar  bar("life_appear");
+  const auto with_cut_off = [&](const std::string &range)
+  {
+    return bar.life("without = ['life.curve.class']\nlife.curve.table = [[1e5, '142 MPa'], [2e6, '" + range +
+                        " Pa']]\n[parameters]\nf = '1 MN'\n[element.fast]\ntype = 'force'\nfrom = 'frame.tip'\n"
+                        "direction = [1, 0, 0]\nharmonics = [{ amplitude = 'f', frequency = '5/T_s' }]\n",
+                    " --life-by parameters.f");
+  };
+  expect_answer(with_cut_off("5e7"), 0, {"Life of the frame"});
+  EXPECT_EQ(count(bar.summary(), "appear or vanish"), 0);
+  const CsvTable cycles = bar.cycles();
+  ASSERT_GT(cycles.rows(), 1);
+  const double second = cycles.number(1, "range [Pa]");
+  with_cut_off(std::to_string(second * 1.005));
+  EXPECT_EQ(count(bar.summary(), "cycles with damage appear or vanish: "), 1);
+  with_cut_off(std::to_string(second * 0.9));
+  EXPECT_EQ(count(bar.summary(), "appear or vanish"), 0);
+  EXPECT_LT(bar.derivative("parameters.f", "error"), 1e-3);
+}
+
+/// Both sides of a bore in two coarse cells, each with damage; a bar without one has no such place.
+TEST(LifeRun, AllPlacesThatTheMeshDoesNotResolveAreNamed)
+{
+  const Bar bar("life_notch");
+  bar.file("bore.geo",
+           "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, -0.1, -0.125, 2, 0.2, 0.25};\nCylinder(2) = {1, -1, 0, "
+           "0, 2, 0, 0.05};\nBooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };\n");
+  const Answer notched = bar.life("frame.cad = 'bore.geo'\n");
+  expect_answer(
+      notched, 0,
+      {"life: the mesh does not resolve (", "of skin, where the stresses of neighbouring elements differ by"});
+  EXPECT_GE(count(notched.text, ", where the stresses of neighbouring elements"), 2) << notched.text;
+  EXPECT_EQ(count(notched.text, "life: the mesh does not resolve"), 1);
+  EXPECT_FALSE(bar.life("").says("does not resolve"));
+}
+
+/// The stress is 71 MPa.
+TEST(LifeRun, StressesBeyondTheStrengthAreNamed)
+{
+  const Bar  bar("life_strength");
+  const auto with = [&](const std::string &strength)
+  { return bar.life("without = ['life.curve.class']\nlife.curve.strength = '" + strength + "'\n"); };
+  expect_answer(with("60 MPa"), 0,
+                {"linear elasticity and S-N curves are not valid at (", "reaches 71 MPa, but R_m is 60 MPa"});
+  EXPECT_NEAR(bar.number({"life", "places", "von_mises"}), 71e6, slow * 71e6);
+  EXPECT_FALSE(with("80 MPa").says("linear elasticity"));
+}
+
 TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
 {
   const Bar  bar("life_bad");
@@ -194,6 +279,46 @@ TEST(LifeRun, FailsAtItsDamageSum)
 }
 
 /// Three quarters of a period are one rise and fall; the stress does not return to where it began.
+/// A stiffness and the sheet of the press that new projects begin with, in coarse cells:
+/// `--life-by` integrates by `exact`, the central differences over another distance by a quarter of the scene's step.
+TEST(LifeRun, DerivativesOfAPressAreThoseOfConvergedRuns)
+{
+  const Folder                folder("life_press");
+  const std::filesystem::path templates = GESTELL_SOURCE_DIR "/apps/templates";
+  std::filesystem::create_symlink(templates / "press.geo", folder / "NAME.geo");
+  std::filesystem::create_symlink(templates / "press.toml", folder / "press.toml");
+  const std::string scene =
+      folder.file("own.toml", "extends = 'press.toml'\n[parameters]\nsheet = '10 mm'\ndepth = '12 mm'\n"
+                              "[frame.mesh]\nsize = '250 mm'\nbearing = '120 mm'\n"
+                              "[life]\ncurve = { class = 71 }\nperiod = '2 s'\n");
+  const auto life = [&](const std::string &options)
+  {
+    const Answer answer = gestell("life " + scene + folder.option() + " --quiet" + options);
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    return read(folder.results() / "summary.json");
+  };
+  const std::vector<std::pair<std::string, std::string>> keys = {{"c_rod", "900 kN/mm"}, {"sheet", "10 mm"}};
+  std::string                                            list;
+  for (const auto &[key, value] : keys)
+    list += (list.empty() ? "parameters." : ",parameters.") + key;
+  const std::string own = life(" --life-by " + list);
+  for (const auto &[key, value] : keys)
+  {
+    constexpr double h = 4e-3;
+    double           damage[2];
+    for (const int side : {0, 1})
+      damage[side] = json_number(life(" --set run.step='\"2.5 us\"' --set parameters." + key + "='\"(" + value + ")*" +
+                                      number(side == 1 ? 1. + h : 1. - h) + "\"'"),
+                                 {"life", "damage"});
+    const double      converged = -std::log(damage[1] / damage[0]) / (2. * h);
+    const std::string here      = own.substr(own.find("\"key\": \"parameters." + key + '"'));
+    const double      allowed   = 1e-3 * std::max(1., std::abs(converged));
+    EXPECT_NEAR(json_number(here, {"exponent"}), converged, allowed) << key;
+    EXPECT_LT(json_number(here, {"error"}), allowed) << key;
+    EXPECT_EQ(here.find("\"note\": \"\""), here.find("\"note\"")) << key;
+  }
+}
+
 TEST(LifeRun, AnOpenLoadWarns)
 {
   const Bar bar("life_short");

@@ -141,6 +141,21 @@ std::vector<Cycle> count_cycles(const Eigen::VectorXd &history, const LoadSequen
   return cycles;
 }
 
+Eigen::VectorXd extremes_between_samples(const Eigen::VectorXd &history, const LoadSequence &load)
+{
+  Eigen::VectorXd between = history;
+  const auto      bend    = [&](std::int64_t i) { return history[i + 1] - 2. * history[i] + history[i - 1]; };
+  for (const LoadBlock &block : load.blocks)
+    for (std::int64_t i = block.first + 2; i < block.end - 2; ++i)
+    {
+      const double before = history[i] - history[i - 1], after = history[i + 1] - history[i], own = bend(i);
+      const auto alike = [&](double other) { return 0.5 * own * own <= own * other && own * other <= 2. * own * own; };
+      if (before * after <= 0. && own != 0. && alike(bend(i - 1)) && alike(bend(i + 1)))
+        between[i] -= (before + after) * (before + after) / (8. * own);
+    }
+  return between;
+}
+
 RangeMeanMatrix range_mean_matrix(const std::vector<Cycle> &cycles, const std::vector<double> &weights, int classes)
 {
   assert(classes > 0 && (weights.empty() || weights.size() == cycles.size()));

@@ -89,6 +89,17 @@ void require_valid(const LoadSequence &load, std::int64_t n);
 void               count_cycles(const double *history, const LoadSequence &load, std::vector<Cycle> &cycles);
 std::vector<Cycle> count_cycles(const Eigen::VectorXd &history, const LoadSequence &load);
 
+/**
+ * The history with extremes between samples: where x turns, the vertex of the parabola through three samples,
+ *
+ *     x_i - (x_i+1 - x_i-1)^2 / (8 (x_i+1 - 2 x_i + x_i-1)).
+ *
+ * Of a smooth history sampled n times a period extremes are too small by at most (pi/n)^2/2, parts of which change with
+ * every shift of the history; these are exact to the fourth order.  Where the second difference of a neighbour is not
+ * between half and twice its own, the history is not smooth and stays as it is.
+ */
+Eigen::VectorXd extremes_between_samples(const Eigen::VectorXd &history, const LoadSequence &load);
+
 /// Counts in classes of equal width: range upwards, mean to the right.
 struct RangeMeanMatrix
 {

@@ -212,6 +212,37 @@ TEST(LoadSequence, MustHaveSamplesAndRepetitions)
   EXPECT_TRUE(count_cycles(x, single_load(4, Residue::half)).empty()) << "a constant has no cycles";
 }
 
+/// A sine of n samples a period, shifted by parts of one: its samples miss the peaks by up to (pi/n)^2/2, the parabolas
+/// by less than 1/10 (2 pi/n)^4.
+TEST(ExtremesBetweenSamples, DoNotChangeWithAShiftOfTheHistory)
+{
+  for (const int n : {16, 40, 100})
+  {
+    double missed = 0., left = 0.;
+    for (double shift = 0.; shift < 1.; shift += 0.07)
+    {
+      const auto     load = single_load(3 * n, Residue::half);
+      const VectorXd x =
+          VectorXd::NullaryExpr(3 * n, [&](Eigen::Index i) { return std::sin(2. * M_PI * (double(i) + shift) / n); });
+      const VectorXd between = extremes_between_samples(x, load);
+      missed                 = std::max(missed, std::abs(x.maxCoeff() - 1.));
+      left                   = std::max(left, std::abs(between.maxCoeff() - 1.));
+      EXPECT_LE((between - x).cwiseAbs().maxCoeff(), 0.5 * std::pow(M_PI / n, 2));
+    }
+    EXPECT_GT(missed, 0.4 * std::pow(M_PI / n, 2));
+    EXPECT_LT(left, 0.1 * std::pow(2. * M_PI / n, 4));
+  }
+}
+
+/// A signed von Mises stress jumps where the trace changes its sign; a corner is an extreme already.
+TEST(ExtremesBetweenSamples, LeaveJumpsCornersAndEndsAlone)
+{
+  for (const VectorXd &x : {values({3, 4, 5, 6, -7, -8, -7, -6}), values({0, 1, 2, 3, 2, 1, 0}), values({2, 1, 2, 1})})
+    EXPECT_EQ(extremes_between_samples(x, single_load(x.size(), Residue::half)), x);
+  const VectorXd two = values({0, 1, 1.5, 1, 0, 0, 1, 1.5, 1, 0});
+  EXPECT_EQ(extremes_between_samples(two, {{{0, 3, 1.}, {3, 10, 1.}}, Residue::half})[2], two[2]) << "end of a block";
+}
+
 TEST(RangeMeanMatrix, ContainsEveryCycleAndItsDamageOnce)
 {
   const VectorXd      x      = random_levels(300, 50, 4);
