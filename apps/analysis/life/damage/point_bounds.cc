@@ -48,9 +48,9 @@ PointBounds::PointBounds(const PointStresses &stresses, const std::vector<int> &
 {
   for (const LoadBlock &block : stresses.load().blocks)
     most_cycles_ += 0.5 * block.repetitions * double(block.end - block.first);
-  // each brings bounds about five times closer; before them one without components, of which only the total variation
-  // counts, but no sign is known; a load with more than an eighth of all numbers costs more than it saves
-  std::vector<double> tolerances{0.2, 0.04, 0.008, 0.0016};
+  // loads that are ten times closer from one to the next; before them one without components, of which only the total
+  // variation counts, but no sign is known; more than an eighth of all numbers would cost more than they save
+  std::vector<double> tolerances{0.1, 0.01, 0.001};
   if (!stresses.is_signed())
     tolerances.insert(tolerances.begin(), 2.);
   for (const double tolerance : tolerances)
