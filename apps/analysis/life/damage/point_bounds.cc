@@ -1,6 +1,8 @@
 #include "apps/analysis/life/damage/point_bounds.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gestell::apps
 {
@@ -12,13 +14,15 @@ using Eigen::VectorXd;
 namespace
 {
 
-constexpr Index points_of_bounds = 256; // multiplied together
+/// Bounds are rounded otherwise than the damage.
+constexpr double rounding_of_bounds = 1e-9;
 
 MatrixXd stress_gram(const PointStresses &stresses, const std::vector<int> &points)
 {
-  const Index n   = stresses.states().rows();
-  MatrixXd    sum = MatrixXd::Zero(n, n);
-  in_blocks_of(points_of_bounds, points,
+  constexpr Index at_once = 256; // multiplied together
+  const Index     n       = stresses.states().rows();
+  MatrixXd        sum     = MatrixXd::Zero(n, n);
+  in_blocks_of(at_once, points,
                [&](const std::vector<int> &some)
                {
                  const MatrixXd S = stresses.matrices(some);
@@ -27,145 +31,140 @@ MatrixXd stress_gram(const PointStresses &stresses, const std::vector<int> &poin
   return sum;
 }
 
+/// docs/theory/life.md (8): max |x - x of the coarse load|.
+/// @param norms  |a.b_r| [n]
+double error_of(const Eigen::Ref<const VectorXd> &norms, const CoarseLoad &load, Index measured)
+{
+  const Index  others = norms.size() - measured;
+  const double of_vector =
+      norms.head(measured).norm() * load.distance + norms.tail(others).dot(load.largest.tail(others).matrix());
+  return std::min(norms.dot(load.largest.matrix()), of_vector);
+}
+
 } // namespace
 
 PointBounds::PointBounds(const PointStresses &stresses, const std::vector<int> &points)
-    : stresses_(stresses), bounds_(stresses.states(), stresses.load(), stresses.rule(), stress_gram(stresses, points))
+    : stresses_(stresses), states_(principal_states(stresses.states(), stress_gram(stresses, points)))
 {
+  for (const LoadBlock &block : stresses.load().blocks)
+    most_cycles_ += 0.5 * block.repetitions * double(block.end - block.first);
+  // loads that are ten times closer from one to the next; before them one without components, of which only the total
+  // variation counts, but no sign is known; more than an eighth of all numbers would cost more than they save
+  std::vector<double> tolerances{0.1, 0.01, 0.001};
   if (!stresses.is_signed())
-    return;
-  std::vector<std::int64_t> samples; // windows of a block share their borders
-  for (const LoadBlock &window : bounds_.short_windows())
+    tolerances.insert(tolerances.begin(), 2.);
+  for (const double tolerance : tolerances)
   {
-    if (samples.empty() || samples.back() != window.first)
-      samples.push_back(window.first);
-    border_.push_back(Index(samples.size()) - 1);
-    samples.push_back(window.end);
+    CoarseLoad load = coarse_load(states_, stresses.load(), tolerance, loads_.empty() ? nullptr : &loads_.back());
+    if (8 * load.components.size() > states_.components.size())
+      break;
+    loads_.push_back(std::move(load));
   }
-  borders_.resize(stresses.states().rows(), Index(samples.size()));
-  for (Index k = 0; k < borders_.cols(); ++k)
-    borders_.col(k) = stresses.states().col(samples[std::size_t(k)]);
+  states_.components.resize(0, 0);
 }
 
-std::vector<PointBounds::SignedParts> PointBounds::signed_parts(const MatrixXd &S) const
+/// docs/theory/life.md (7): the damage of cycles_ with turning points that move by `error`, of small cycles and others.
+double PointBounds::of_cycles(double error, double variation, double largest, const std::vector<Cycle> &more)
 {
-  const Index              n      = S.rows() / 6;
-  const MatrixXd           parts  = S * bounds_.basis();
-  const VectorXd           offset = S * bounds_.mean();
-  MatrixXd                 trace(n, parts.cols());
-  VectorXd                 trace_offset(n), margin(n);
-  std::vector<SignedParts> result(static_cast<std::size_t>(n));
-  for (Index i = 0; i < n; ++i)
+  const DamageRule &rule = stresses_.rule();
+  error += rounding_of_bounds * std::abs(largest);
+  for (const Cycle &cycle : cycles_)
+    variation += 2. * cycle.count * cycle.range;
+  cycles_.insert(cycles_.end(), more.begin(), more.end());
+  for (Cycle &cycle : cycles_)
   {
-    SignedParts &of_point = result[std::size_t(i)];
-    of_point.norms        = (von_mises_norm() * parts.middleRows<6>(6 * i)).colwise().norm().transpose().array();
-    of_point.offset       = (von_mises_norm() * offset.segment<6>(6 * i)).norm();
-    of_point.peak         = bounds_.peak_of_norm(of_point.norms, of_point.offset);
-    trace.row(i)          = trace_row() * parts.middleRows<6>(6 * i);
-    trace_offset[i]       = trace_row() * offset.segment<6>(6 * i);
-    margin[i]             = trace_of_rounding * of_point.peak;
+    cycle.range += 2. * error;
+    cycle.mean += error;
   }
-  auto within = bounds_.possible_sign_changes(trace, trace_offset, margin);
-  for (std::size_t i = 0; i < result.size(); ++i)
-    result[i].within = std::move(within[i]);
-  return result;
+  if (error > 0.)
+  {
+    const double R     = rule.curve.ratio.value_or(-1.); // a cycle of this ratio is its own equivalent
+    const double range = 2. * error * rule.mean_stress.largest_factor(largest + error, rule.curve.ratio);
+    cycles_.push_back(
+        {range, 0.5 * range * (1. + R) / (1. - R), std::min(most_cycles_, variation / (4. * error)), 0, 0});
+  }
+  return (1. + rounding_of_bounds) * damage_of(cycles_, rule);
 }
 
-VectorXd PointBounds::of_points(const std::vector<int> &points) const
+void PointBounds::compute_histories(const MatrixXd &parts, const VectorXd &offset, const CoarseLoad &load)
 {
-  VectorXd bound(points.size());
-  in_blocks_of(points_of_bounds, points,
-               [&, first = Index(0)](const std::vector<int> &some) mutable
-               {
-                 const MatrixXd S = stresses_.matrices(some);
-                 if (stresses_.is_signed())
-                 {
-                   const auto parts = signed_parts(S);
-                   for (std::size_t i = 0; i < some.size(); ++i)
-                     bound[first++] = bounds_.of_signed_norm(
-                         parts[i].norms, parts[i].offset,
-                         stresses_.sign_jumps(S.middleRows<6>(6 * Index(i)), parts[i].within, parts[i].peak));
-                   return;
-                 }
-                 const MatrixXd parts  = S * bounds_.basis();
-                 const VectorXd offset = S * bounds_.mean();
-                 for (std::size_t i = 0; i < some.size(); ++i)
-                   bound[first++] = of_rows(stresses_.rows(some[i]), parts.middleRows<6>(6 * Index(i)),
-                                            offset.segment<6>(6 * Index(i)))
-                                        .maxCoeff();
-               });
-  return bound;
+  histories_.resize(load.components.rows(), parts.rows());
+  histories_.noalias() = load.components * parts.leftCols(load.components.cols()).transpose();
+  histories_.rowwise() += offset.transpose();
 }
 
-VectorXd PointBounds::of_rows(const MeasureRows &rows, const MatrixXd &S) const
+VectorXd PointBounds::of_rows(const MatrixXd &parts, const VectorXd &offset, const CoarseLoad &load)
 {
-  return of_rows(rows, S * bounds_.basis(), S * bounds_.mean());
-}
-
-VectorXd PointBounds::of_rows(const MeasureRows &rows, const PointStress &parts, const coupling::Stress &offset) const
-{
-  const MatrixXd norms = (rows * parts).cwiseAbs();
-  VectorXd       bound(rows.rows());
-  for (Index i = 0; i < rows.rows(); ++i)
-    bound[i] = bounds_.of_linear(norms.row(i).transpose().array(), rows.row(i) * offset);
-  return bound;
-}
-
-VectorXd PointBounds::of_samples(const std::vector<int> &points) const
-{
-  const MatrixXd S     = stresses_.matrices(points);
-  const MatrixXd sigma = borders_.transpose() * S.transpose();
-  const auto     parts = signed_parts(S);
-  VectorXd       bound(points.size());
+  compute_histories(parts, offset, load);
+  const MatrixXd norms = parts.cwiseAbs().transpose();
+  VectorXd       bound(parts.rows());
   for (Index i = 0; i < bound.size(); ++i)
-    bound[i] = of_samples(parts[std::size_t(i)], S.middleRows<6>(6 * i), sigma.middleCols<6>(6 * i));
+  {
+    count_cycles(histories_.col(i).data(), load.load, cycles_);
+    bound[i] = of_cycles(error_of(norms.col(i), load, states_.measured), norms.col(i).dot(load.variation.matrix()),
+                         histories_.col(i).maxCoeff());
+  }
   return bound;
 }
 
-double PointBounds::of_samples(const SignedParts &parts, const PointStress &S, const MatrixXd &sigma) const
+VectorXd PointBounds::of_norms(const MatrixXd &parts, const VectorXd &offset, const CoarseLoad &load)
 {
-  const VectorXd border  = signed_history(sigma);
-  const VectorXd bending = bounds_.bending(parts.norms);
-  const auto    &windows = bounds_.short_windows();
-
-  // all samples where the sign may change, elsewhere the borders of short windows
-  LoadSequence           load{{}, stresses_.load().residue};
-  std::vector<double>    history;
-  std::vector<SizeCount> remainder;
-  VectorXd               inside;
-  auto                   run = parts.within.begin();
-  for (std::size_t w = 0; w < windows.size(); ++w)
+  compute_histories(parts, offset, load);
+  VectorXd bound(parts.rows() / 6);
+  for (Index i = 0; i < bound.size(); ++i)
   {
-    const LoadBlock &window = windows[w];
-    const Index      first = border_[w], end = first + 1;
-    if (w == 0 || windows[w - 1].end != window.first) // of a block
+    const auto     V           = histories_.middleCols<5>(6 * i);
+    const VectorXd norms       = parts.middleRows<5>(6 * i).colwise().norm().transpose();
+    const VectorXd traces      = parts.row(6 * i + 5).cwiseAbs().transpose();
+    const double   largest     = std::sqrt(V.rowwise().squaredNorm().maxCoeff());
+    const double   error       = error_of(norms, load, states_.measured) + rounding_of_bounds * largest;
+    const double   trace_error = error_of(traces, load, states_.measured) + trace_of_rounding * (largest + error);
+    signed_path({V, histories_.col(6 * i + 5), error, trace_error, traces + trace_of_rounding * norms}, load, path_);
+    count_cycles(path_.history.data(), path_.load, cycles_);
+    bound[i] = of_cycles(error, path_.variation + norms.dot(load.variation.matrix()), largest, path_.flips);
+  }
+  return bound;
+}
+
+VectorXd PointBounds::of_points(const std::vector<int> &points, int level)
+{
+  constexpr Index   in_cache = 1 << 14; // numbers of histories that are multiplied together
+  const CoarseLoad &load     = loads_[std::size_t(level)];
+  VectorXd          bound(points.size());
+  Index             first = 0;
+  const auto        visit = [&](const std::vector<int> &some)
+  {
+    const MatrixXd S      = stresses_.matrices(some);
+    MatrixXd       parts  = S * states_.basis;
+    VectorXd       offset = S * states_.mean;
+    const auto     n      = Index(some.size());
+    if (stresses_.is_signed())
     {
-      load.blocks.push_back({std::int64_t(history.size()), 0, window.repetitions});
-      history.push_back(border[first]);
-    }
-    while (run != parts.within.end() && run->end <= window.first)
-      inside.resize(0), ++run;
-    if (run != parts.within.end() && run->first <= window.first)
-    {
-      if (inside.size() == 0)
-        inside = signed_history(stresses_.states().middleCols(run->first, run->end - run->first + 1).transpose() *
-                                S.transpose());
-      history.insert(history.end(), inside.data() + (window.first + 1 - run->first),
-                     inside.data() + (window.end + 1 - run->first));
+      for (Index i = 0; i < n; ++i)
+      {
+        parts.middleRows<6>(6 * i) = (von_mises_and_trace() * parts.middleRows<6>(6 * i)).eval();
+        offset.segment<6>(6 * i)   = (von_mises_and_trace() * offset.segment<6>(6 * i)).eval();
+      }
+      bound.segment(first, n) = of_norms(parts, offset, load);
     }
     else
-    {
-      const double arc = std::abs(border[first]) + std::abs(border[end]) -
-                         coupling::von_mises((sigma.row(first) + sigma.row(end)).transpose());
-      history.push_back(border[end]);
-      remainder.push_back(
-          {2. * (bending[Index(w)] + std::max(0., arc)), 2. * window.repetitions * double(window.end - window.first)});
-    }
-    load.blocks.back().end = std::int64_t(history.size());
-  }
-  std::vector<Cycle> cycles;
-  count_cycles(history.data(), load, cycles);
-  return bounds_.of_cycles(cycles, remainder, parts.peak);
+      for (Index i = 0; i < n; ++i)
+      {
+        const MeasureRows rows = stresses_.rows(some[std::size_t(i)]);
+        bound[first + i] = of_rows(rows * parts.middleRows<6>(6 * i), rows * offset.segment<6>(6 * i), load).maxCoeff();
+      }
+    first += n;
+  };
+  in_blocks_of(std::clamp<Index>(in_cache / (6 * load.components.rows()), 1, 64), points, visit);
+  return bound;
+}
+
+VectorXd PointBounds::of_rows(const MeasureRows &rows, const PointStress &S)
+{
+  if (loads_.empty())
+    return VectorXd::Constant(rows.rows(), std::numeric_limits<double>::infinity());
+  const PointStress parts = S * states_.basis;
+  return of_rows(rows * parts, rows * (S * states_.mean), loads_.back());
 }
 
 } // namespace gestell::apps

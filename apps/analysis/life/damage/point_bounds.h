@@ -1,41 +1,38 @@
 #pragma once
 
+#include "apps/analysis/life/damage/coarse_load.h"
 #include "apps/analysis/life/damage/point_stress.h"
+#include "apps/analysis/life/damage/signed_path.h"
 
 namespace gestell::apps
 {
 
-/// Upper bounds of the damage of points, docs/theory/life.md (7) to (12).
+/// Upper bounds of the damage of points from coarse loads, docs/theory/life.md (5) to (9).
 class PointBounds
 {
 public:
   /// @param points  whose stresses are the norm of the components
   PointBounds(const PointStresses &stresses, const std::vector<int> &points);
 
-  Eigen::VectorXd of_points(const std::vector<int> &points) const;
-  /// Of each row of a point.
-  Eigen::VectorXd of_rows(const MeasureRows &rows, const Eigen::MatrixXd &S) const;
-  /// Closer, of the signed measure, from some of the samples.
-  Eigen::VectorXd of_samples(const std::vector<int> &points) const;
+  /// Of coarse loads, each closer than the one before; none: the load has too few samples.
+  int             n_levels() const { return int(loads_.size()); }
+  Eigen::VectorXd of_points(const std::vector<int> &points, int level);
+  /// The closest ones, of each row of a point; infinite without levels.
+  Eigen::VectorXd of_rows(const MeasureRows &rows, const PointStress &S);
 
 private:
-  Eigen::VectorXd of_rows(const MeasureRows &rows, const PointStress &parts, const coupling::Stress &offset) const;
+  void compute_histories(const Eigen::MatrixXd &parts, const Eigen::VectorXd &offset, const CoarseLoad &load);
+  Eigen::VectorXd of_rows(const Eigen::MatrixXd &parts, const Eigen::VectorXd &offset, const CoarseLoad &load);
+  Eigen::VectorXd of_norms(const Eigen::MatrixXd &parts, const Eigen::VectorXd &offset, const CoarseLoad &load);
+  double          of_cycles(double error, double variation, double largest, const std::vector<Cycle> &more = {});
 
-  /// |L S b_r|, what bounds |L sigma|, and where its sign may change.
-  struct SignedParts
-  {
-    Eigen::ArrayXd         norms;
-    double                 offset = 0.;
-    double                 peak   = 0.;
-    std::vector<LoadBlock> within;
-  };
-  std::vector<SignedParts> signed_parts(const Eigen::MatrixXd &S) const;
-  double of_samples(const SignedParts &parts, const PointStress &S, const Eigen::MatrixXd &sigma) const;
-
-  const PointStresses      &stresses_;
-  DamageBounds              bounds_;
-  Eigen::MatrixXd           borders_; ///< states at the borders of the short windows [n x borders]
-  std::vector<Eigen::Index> border_;  ///< of each short window the first one; the other follows
+  const PointStresses    &stresses_;
+  PrincipalStates         states_; ///< without components
+  std::vector<CoarseLoad> loads_;
+  double                  most_cycles_ = 0.; ///< half of the samples of one repetition of the load
+  Eigen::MatrixXd         histories_;        ///< [chosen x rows], their memory is used again
+  SignedPath              path_;
+  std::vector<Cycle>      cycles_;
 };
 
 } // namespace gestell::apps

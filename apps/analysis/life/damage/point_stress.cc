@@ -13,22 +13,19 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const Eigen::Matrix<double, 6, 6> &von_mises_norm()
+const Eigen::Matrix<double, 6, 6> &von_mises_and_trace()
 {
-  static const Eigen::Matrix<double, 6, 6> norm = []
+  // sigma_v^2 = (xx - (yy + zz)/2)^2 + 3/4 (yy - zz)^2 + 3 (xy^2 + yz^2 + xz^2)
+  static const Eigen::Matrix<double, 6, 6> rows = []
   {
+    const double                s = std::sqrt(0.75), r = std::sqrt(3.);
     Eigen::Matrix<double, 6, 6> L = Eigen::Matrix<double, 6, 6>::Zero();
-    L.topLeftCorner<3, 3>()       = std::sqrt(1.5) * (Eigen::Matrix3d::Identity() - Eigen::Matrix3d::Constant(1. / 3.));
-    L.bottomRightCorner<3, 3>()   = std::sqrt(3.) * Eigen::Matrix3d::Identity();
+    L.topLeftCorner<2, 3>() << 1., -0.5, -0.5, 0., s, -s;
+    L.block<3, 3>(2, 3) = r * Eigen::Matrix3d::Identity();
+    L.bottomLeftCorner<1, 3>().setOnes();
     return L;
   }();
-  return norm;
-}
-
-const StressRow &trace_row()
-{
-  static const StressRow row = (StressRow() << 1., 1., 1., 0., 0., 0.).finished();
-  return row;
+  return rows;
 }
 
 VectorXd signed_history(const Eigen::Ref<const MatrixXd> &sigma)
@@ -97,43 +94,6 @@ PointDamage PointStresses::worst_row(int point, const Eigen::Ref<const MatrixXd>
       worst = {point, damage, rows.row(i)};
   }
   return worst;
-}
-
-std::vector<SizeCount> PointStresses::sign_jumps(const PointStress &S, const std::vector<LoadBlock> &within,
-                                                 double peak) const
-{
-  const VectorXd trace    = (trace_row() * S).transpose();
-  const auto     negative = [&](std::int64_t t, double trace_of_t)
-  {
-    if (trace_of_t >= 0. || trace_of_t < -trace_of_rounding * peak)
-      return trace_of_t < 0.;
-    return signed_von_mises(S * states_.col(t)) < 0.;
-  };
-  const PointStress      V = von_mises_norm() * S;
-  std::vector<SizeCount> jumps;
-  const auto             join = [&](std::int64_t a, std::int64_t b, double count) {
-    jumps.push_back({(V * states_.col(a)).norm() + (V * states_.col(b)).norm(), count});
-  };
-  VectorXd history;
-  for (const LoadBlock &part : within)
-  {
-    history.noalias() = states_.middleCols(part.first, part.end - part.first + 1).transpose() * trace;
-    bool before       = negative(part.first, history[0]);
-    for (Index i = 1; i < history.size(); ++i)
-      if (negative(part.first + i, history[i]) != before)
-      {
-        before = !before;
-        join(part.first + i - 1, part.first + i, part.repetitions);
-      }
-  }
-  for (std::size_t b = 0; b < load_.blocks.size(); ++b) // to its own begin, and to the next block
-    for (const std::size_t next : {b, (b + 1) % load_.blocks.size()})
-    {
-      const std::int64_t last = load_.blocks[b].end - 1, first = load_.blocks[next].first;
-      if (negative(last, states_.col(last).dot(trace)) != negative(first, states_.col(first).dot(trace)))
-        join(last, first, next == b ? load_.blocks[b].repetitions : 1.);
-    }
-  return jumps;
 }
 
 } // namespace gestell::apps

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/analysis/life/damage/damage_bounds.h"
+#include "apps/analysis/life/damage/damage.h"
 #include "apps/analysis/life/damage/stress_measure.h"
 #include "coupling/frame/reduced_stress.h"
 
@@ -15,10 +15,8 @@ namespace gestell::apps
 using StressRow   = Eigen::Matrix<double, 1, 6>;
 using PointStress = Eigen::Matrix<double, 6, Eigen::Dynamic>; ///< S_i [6 x n], sigma = S_i z
 
-/// L [6 x 6] with |L sigma| = sigma_v.
-const Eigen::Matrix<double, 6, 6> &von_mises_norm();
-/// tr sigma = row.sigma.
-const StressRow &trace_row();
+/// [6 x 6]: five rows L with |L sigma| = sigma_v, and the trace.
+const Eigen::Matrix<double, 6, 6> &von_mises_and_trace();
 /// Signed von Mises stress of stresses [samples x 6].
 Eigen::VectorXd signed_history(const Eigen::Ref<const Eigen::MatrixXd> &sigma);
 
@@ -47,13 +45,6 @@ public:
   /// out.
   PointDamage worst_row(int point, const Eigen::Ref<const Eigen::MatrixXd> &sigma, const MeasureRows &rows,
                         const Eigen::VectorXd &bound, double enough);
-
-  /**
-   * Changes of sign of signed_von_mises(S z), with |L sigma| before and after.
-   * @param within  samples between which it may change sign inside blocks
-   * @param peak    upper bound of |L sigma|
-   */
-  std::vector<SizeCount> sign_jumps(const PointStress &S, const std::vector<LoadBlock> &within, double peak) const;
 
 private:
   const coupling::ReducedStress &stress_;

@@ -63,7 +63,7 @@ struct BoundOfPoint
 {
   double bound = 0.;
   int    point = -1;
-  bool   last  = true; ///< no closer one
+  int    level = 0; ///< of the next closer one; all levels: count the cycles
 
   /// Order of the queue: largest bound first, then the first point.
   bool operator<(const BoundOfPoint &other) const
@@ -73,8 +73,8 @@ struct BoundOfPoint
 };
 
 /// Damage of points; of a critical plane the planes that may exceed `enough`, all without `bounds`.
-std::vector<PointDamage> damage_of_points(PointStresses &stresses, const PointBounds *bounds,
-                                          const std::vector<int> &points, double enough)
+std::vector<PointDamage> damage_of_points(PointStresses &stresses, PointBounds *bounds, const std::vector<int> &points,
+                                          double enough)
 {
   std::vector<PointDamage> found;
   if (points.empty())
@@ -120,11 +120,17 @@ WorstPoints worst_points(const coupling::ReducedStress &stress, const MatrixXd &
       points.push_back(i);
   if (points.empty() || search.worst <= 0)
     return {};
-  const PointBounds                 bounds(stresses, points);
-  const VectorXd                    first = bounds.of_points(points);
+  PointBounds                       bounds(stresses, points);
   std::priority_queue<BoundOfPoint> queue;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    queue.push({first[Index(i)], points[i], !stresses.is_signed()});
+  const auto                        bound_closer = [&](const std::vector<int> &some, int level)
+  {
+    const VectorXd bound = level < bounds.n_levels()
+                               ? bounds.of_points(some, level)
+                               : VectorXd::Constant(Index(some.size()), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < some.size(); ++i)
+      queue.push({bound[Index(i)], some[i], level + 1});
+  };
+  bound_closer(points, 0);
 
   // multiplied together: samples x 6 x 8 numbers of stress
   constexpr std::size_t at_once = 8;
@@ -132,24 +138,19 @@ WorstPoints worst_points(const coupling::ReducedStress &stress, const MatrixXd &
   WorstPoints           result;
   while (!queue.empty() && queue.top().bound > ranking.enough())
   {
-    const double        next = queue.top().bound;
-    const bool          last = queue.top().last;
-    std::vector<int>    some;
-    std::vector<double> before;
-    for (; !queue.empty() && some.size() < at_once && queue.top().bound > ranking.enough() && queue.top().last == last;
+    const double     next  = queue.top().bound;
+    const int        level = queue.top().level;
+    std::vector<int> some;
+    for (;
+         !queue.empty() && some.size() < at_once && queue.top().bound > ranking.enough() && queue.top().level == level;
          queue.pop())
       if (!ranking.near(queue.top().point, next))
-      {
         some.push_back(queue.top().point);
-        before.push_back(queue.top().bound);
-      }
     if (some.empty())
       continue;
-    if (!last)
+    if (level < bounds.n_levels())
     {
-      const VectorXd closer = bounds.of_samples(some);
-      for (std::size_t i = 0; i < some.size(); ++i)
-        queue.push({std::min(before[i], closer[Index(i)]), some[i], true});
+      bound_closer(some, level);
       continue;
     }
     // with a distance a worse point may displace others, so that points below them count again

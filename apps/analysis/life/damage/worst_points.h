@@ -20,13 +20,10 @@ struct WorstPoints
 /**
  * The points of the largest damage, exact, without counting the cycles of all points.
  *
- * For one slope m, D_m = sum_k n_k r_k^m to the power 1/m is a seminorm of the history (docs/theory/life.md (6)), so
- * that with principal components c_r(t) of the states, z(t) = sum_r b_r c_r(t),
- *
- *     D_m(w.S_i z)^(1/m)  <=  sum_r |w.S_i b_r| D_m(c_r)^(1/m).
- *
- * Points are evaluated in the order of these bounds until the next bound is at most the damage of the last of the worst
- * found.  Greedy with a distance: the worst, then the worst at least `distance` from those chosen, and so on.
+ * Bounds of the damage come from coarse loads, few samples of few principal components of the states with a known error
+ * (docs/theory/life.md (5) to (9)).  The point with the largest bound gets that of the next closer load, at last its
+ * cycles are counted, until the next bound is at most the damage of the last of the worst found.  Greedy with a
+ * distance: the worst, then the worst at least `distance` from those chosen, and so on.
  *
  * @param states  (p; g) [n1 + m + 3 x samples of `load`], finite
  * @throws std::invalid_argument: sizes, directions missing
