@@ -34,10 +34,10 @@ void show_field(const LifeResult &found, Scenery &scenery)
   std::vector<double> shades;
   for (const double damage : found.field.damage)
     shades.push_back(shade_of(damage, most));
-  scenery.fields.push_back(
-      {"damage", "damage",
-       "damage " + short_text(most * std::pow(10., -shaded_decades), 2) + " to " + short_text(most, 2) + ", logarithmic",
-       std::move(shades), found.worst()->at});
+  scenery.fields.push_back({"damage", "damage",
+                            "damage " + short_text(most * std::pow(10., -shaded_decades), 2) + " to " +
+                                short_text(most, 2) + ", logarithmic",
+                            std::move(shades), found.worst()->at});
 }
 
 /// Fatigue of the frame under the motion of a run.

@@ -22,7 +22,7 @@ void refine_error(Session &session, const LifeLoad &load, LifeResult &found);
 
 /**
  * d ln(life) / d ln(key) at the worst place, by differences of runs with the key changed by -2, -1, 1 and 2 steps h of
- * half a percent, all integrated finer than the run itself and with extremes between samples, docs/theory/life.md (13):
+ * half a percent, all integrated finer than the run itself and with extremes between samples, docs/theory/life.md (11):
  *
  *     (4 d(h) - d(2 h)) / 3,   d(h) = (ln life(h) - ln life(-h)) / (2 h).
  *

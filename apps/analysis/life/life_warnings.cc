@@ -88,9 +88,10 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
                        " of its range, so the load does not repeat smoothly; count one period only (output.from), or "
                        "let the run end in its initial state");
   if (std::isinf(worst->damage))
-    warnings.push_back("life: the mean stress of a cycle at " + position_of(*worst) +
-                       " reaches the tensile strength, so that mean_stress = \"goodman\" leaves no life; check the unit "
-                       "of 'strength' and the load");
+    warnings.push_back(
+        "life: the mean stress of a cycle at " + position_of(*worst) +
+        " reaches the tensile strength, so that mean_stress = \"goodman\" leaves no life; check the unit "
+        "of 'strength' and the load");
   if (worst->cycles <= 1. && found.closing > steady)
     warnings.push_back("life: " + short_text(worst->cycles) +
                        " cycle was counted at the worst place: the run contains only one rise and fall, so "

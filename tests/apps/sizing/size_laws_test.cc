@@ -63,7 +63,7 @@ TEST(SizeLaws, TakeMoreModesByTheSquareOfTheirNumber)
 /// A rod held at both ends under uniform inertia, u = x (1 - x)/2 = sum_odd 4/(pi j)^3 sin(pi j x): displacements,
 /// their energy, which is the mean square of the stress, and the forces at its ends, by m modes.  Factors times
 /// differences are the errors, or somewhat more as differences in the mean are orthogonal.
-TEST(SizeLaws, TellWhatModesBeyondTheFinerReductionLeave)
+TEST(SizeLaws, GiveWhatModesBeyondTheFinerReductionLeave)
 {
   constexpr int all = 200000;
   struct Law

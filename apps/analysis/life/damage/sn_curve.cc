@@ -131,8 +131,7 @@ SnCurve crane_curve(double notch_class, double slope, StressKind kind, double ga
 
 const std::vector<FkmMaterial> &fkm_materials()
 {
-  // FKM guideline, 6th edition 2012, 4.2.1 (f_W, f_tau), 4.4.2 (a_M, b_M), 4.4.3 (second knee); the first four numbers
-  // as in pylife (Bosch Research), strength/fkm_linear
+  // FKM guideline, 6th edition 2012, 4.2.1 (f_W, f_tau), 4.4.2 (a_M, b_M), 4.4.3 (second knee)
   static const std::vector<FkmMaterial> materials{
       {"steel", 0.45, 0.577, 0.35, -0.1, false},
       {"forged steel", 0.40, 0.577, 0.35, -0.1, false},
