@@ -8,6 +8,7 @@
 #include "tests/support/statics.h"
 #include "tests/support/test.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 namespace gestell::test
