@@ -48,6 +48,16 @@ Differs differing_event(const ModelAnswer &a, const ModelAnswer &b, double t)
   return {};
 }
 
+/// Difference of two models in an output.  Extremes of stresses and internal forces may agree by chance while
+/// vibrations that only one model has are everywhere: theirs is the largest difference of the histories.
+double difference_of(const ModelAnswer &a, const ModelAnswer &b, const OutputName &output, std::size_t i)
+{
+  const double values = std::abs(a.values[i] - b.values[i]);
+  const bool   whole  = b.recovered[i] && output.kind.rfind("t_", 0) != 0 && a.histories[i].size() > 0 &&
+                     a.histories[i].size() == b.histories[i].size();
+  return whole ? std::max(values, (a.histories[i] - b.histories[i]).cwiseAbs().maxCoeff()) : values;
+}
+
 /// Two models that differ in one part, or why there are none.
 struct Comparison
 {
@@ -324,7 +334,10 @@ BudgetPart BudgetMaker::part_of(std::size_t output, const Comparison &comparison
   const double factor = comparison.factors.empty() ? comparison.factor : comparison.factors[output];
   if (!std::isfinite(factor))
     return {std::nullopt, "the first truncated mode has the frequency of the last one, " + comparison.reason};
-  return {factor * std::abs(v - w), comparison.reason};
+  return {factor * (comparison.factors.empty()
+                        ? std::abs(v - w)
+                        : difference_of(*comparison.first, *comparison.second, outputs_[output], output)),
+          comparison.reason};
 }
 
 /// Sum of two causes; unknown if one of them is.

@@ -45,6 +45,15 @@ const coupling::SignalSummary &signal_of(const coupling::RunResult &run, const s
                        [&](const coupling::SignalSummary &signal) { return signal.name == name; });
 }
 
+Eigen::VectorXd history_of(const coupling::RunResult &run, const std::string &signal)
+{
+  const auto width  = Eigen::Index(run.columns.size());
+  const auto column = std::find(run.columns.begin(), run.columns.end(), signal) - run.columns.begin();
+  return Eigen::Map<const Eigen::MatrixXd>(run.rows.data(), width, Eigen::Index(run.rows.size()) / width)
+      .row(column)
+      .transpose();
+}
+
 void take_run(const coupling::RunResult &run, const std::vector<OutputName> &outputs, double end, ModelAnswer &answer)
 {
   answer.method = run.method;
@@ -57,6 +66,7 @@ void take_run(const coupling::RunResult &run, const std::vector<OutputName> &out
       answer.sizes[i]                       = std::max(std::abs(signal.min), std::abs(signal.max));
       answer.units[i]                       = unit_of(outputs[i], signal);
       answer.decided_s[i]                   = decided_at(outputs[i], signal, end);
+      answer.histories[i]                   = history_of(run, outputs[i].signal);
     }
 }
 
@@ -116,7 +126,8 @@ int more_modes(const Scene &scene, const ModelAnswer &answer)
   return std::min(answer.most_modes, more_than(modes));
 }
 
-ModelAnswer::ModelAnswer(std::size_t n, double begin) : values(n), sizes(n), units(n), decided_s(n, begin), recovered(n)
+ModelAnswer::ModelAnswer(std::size_t n, double begin)
+    : values(n), sizes(n), units(n), decided_s(n, begin), recovered(n), histories(n)
 {
 }
 

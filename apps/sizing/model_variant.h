@@ -61,6 +61,7 @@ struct ModelAnswer
   bool                         whole      = false; ///< the frame is not reduced
   bool                         superposed = false; ///< the modes are those of the machine
   std::vector<char>            recovered;          ///< [outputs] an internal force or a stress of the frame
+  std::vector<Eigen::VectorXd> histories;          ///< [outputs] of the signal, in equal intervals; empty: not of one
   double                       prepare_cpu = 0., run_cpu = 0.; ///< [s]
 
   double cpu() const { return prepare_cpu + run_cpu; }

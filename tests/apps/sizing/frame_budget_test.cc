@@ -1,5 +1,6 @@
 // Error budgets of frames from CAD against a mesh that is far finer.
 
+#include "apps/session/session.h"
 #include "apps/sizing/error_budget.h"
 #include "apps/sizing/size_search.h"
 #include "tests/support/frame_folder.h"
@@ -63,6 +64,63 @@ TEST(FrameBudget, OfCoarseCellsAroundAHoleIsAtLeastHalfOfTheTrueError)
   }
 }
 
+/// Stresses at ten places of a bar in bending, torsion and tension, with six modes: what the budget prints is at least
+/// the difference to the direct integration of all coordinates with the same steps, at every instant.
+TEST(FrameBudget, OfStressHistoriesHoldsAgainstTheFullFrame)
+{
+  test::SceneFolder folder;
+  folder.write("bar.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, -0.1, -0.125, 2, 0.2, 0.25};\n");
+  std::string text = "name = 'bar'\n[frame]\ncad = 'bar.geo'\nunit = '1 m'\nmesh = { size = '120 mm' }\n"
+                     "damping = { ratio = 0.02 }\n" +
+                     plane_surface("wall", "[-1, 0, 0]", "[0, 0, 0]") + plane_surface("tip", "[1, 0, 0]", "[2, 0, 0]") +
+                     table("frame.support.wall", {{"surface", "wall"}, {"clamped", "true"}}) +
+                     table("frame.interface.tip", {{"surface", "tip"}, {"coupling", "average"}}) +
+                     table("reduction", {{"modes", "6"}});
+  constexpr int places = 10;
+  std::string   wanted, list;
+  for (int i = 0; i < places; ++i)
+  {
+    const std::string name = "s" + std::to_string(i), x = number(0.3 + 0.15 * i);
+    text += table("frame.stress_point." + name,
+                  {{"at", i % 2 == 0 ? "[" + x + ", 0.03, 0.125]" : "[" + x + ", 0.1, 0.04]"}});
+    wanted += (i > 0 ? "\n" : "") + name + " = 'frame.stress." + name + ".xx'";
+    list += (i > 0 ? "," : "") + name + ".max," + name + ".min";
+  }
+  for (const auto &[axis, frequency] :
+       {std::pair("[0, 0, 1]", "130 Hz"), std::pair("[0, 1, 0]", "170 Hz"), std::pair("[1, 0, 0]", "310 Hz")})
+    text += element("load" + std::string(frequency, 3), "force",
+                    {{"from", "frame.tip"},
+                     {"to", "ground"},
+                     {"direction", axis},
+                     {"harmonics", "[{ amplitude = '10 kN', frequency = '" + std::string(frequency) + "' }]"}});
+  text += steps("20 us", "20 ms") + "[output.signals]\n" + wanted + "\n";
+  std::string full_text = test::quoted(text);
+  full_text.replace(full_text.find("modes = 6"), 9, "method = \"none\"");
+  const std::string file    = folder.write("scene.toml", test::quoted(text));
+  const Scene       scene   = read_scene(file);
+  const auto        outputs = budget_outputs(scene, list);
+  const ErrorBudget budget  = error_budget(scene, outputs, answer_of(scene, {}, outputs));
+  Session           small(file), whole(folder.write("full.toml", full_text));
+  const auto        reduced = small.run().run, full = whole.run().run;
+  const std::size_t width = full->columns.size(), n = full->rows.size();
+  ASSERT_GT(whole.machine().machine.size(), 50 * small.machine().machine.size());
+  ASSERT_EQ(reduced->rows.size(), n);
+  for (std::size_t i = 0; i < places; ++i)
+  {
+    double difference = 0.;
+    for (std::size_t at = i + 1; at < n; at += width)
+      difference = std::max(difference, std::abs(full->rows[at] - reduced->rows[at]));
+    const auto  &there = full->signals[i], &here = reduced->signals[i];
+    const double printed[] = {*budget.entries[2 * i].reduction.error, *budget.entries[2 * i + 1].reduction.error};
+    const double errors[]  = {std::abs(there.max - here.max), std::abs(there.min - here.min)};
+    std::cout << there.name << ' ' << there.max << ' ' << difference << "  printed " << printed[0] << ' ' << printed[1]
+              << "  err " << errors[0] << ' ' << errors[1] << '\n';
+    for (const int k : {0, 1})
+      EXPECT_LE(errors[k], printed[k]) << there.name;
+    EXPECT_LE(difference, std::max(printed[0], printed[1])) << there.name;
+  }
+}
+
 /// Nothing is known of what straight sides of hexahedra leave of a hole, and of a plate without one there is nothing.
 TEST(FrameBudget, OfSweptPlatesIsKnownWhereAllFacesArePlanes)
 {
@@ -83,7 +141,7 @@ TEST(FrameBudget, OfSweptPlatesIsKnownWhereAllFacesArePlanes)
 }
 
 /// Tetrahedra with curved sides need fewer coordinates than straight ones, which leave more of the hole than is allowed
-/// at any size; what they answer is within the tolerance of a far finer mesh, and less than twice what is told.
+/// at any size; what they answer is within the tolerance of a far finer mesh, and less than twice what is printed.
 TEST_F(FrameSize, IsTheSmallestOfAllKindsOfMeshForAtMostTenRuns)
 {
   test::SceneFolder folder, fine_folder;
