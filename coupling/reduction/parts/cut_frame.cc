@@ -3,7 +3,10 @@
 namespace gestell::coupling
 {
 
+namespace
+{
 using Sparse = Eigen::SparseMatrix<double>;
+}
 
 CutFrame::CutFrame(const fem::FrameMatrices &frame, const fem::CellParts &parts, const PartsCall &call)
     : frame_(frame), parts_(parts), call_(call), interface_(parts, frame.interface_coordinates()), damping_(frame.B)
