@@ -52,7 +52,8 @@ void add_scene(const std::string &name, const SceneNode &root, std::vector<KeyPa
   for (const auto &[table, value] : scene.entries)
   {
     key.push_back(scene_part("'" + table + "' of " + name, value));
-    key.push_back(files_part("a file named by '" + table + "' of " + name, value));
+    if (table != "life") // scenes of blocks, whose keys follow
+      key.push_back(files_part("a file named by '" + table + "' of " + name, value));
   }
 }
 

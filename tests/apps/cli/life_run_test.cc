@@ -126,7 +126,7 @@ TEST(LifeRun, CountsTheStatesOfARunAgain)
   const std::string changes = " --set life.curve.class=63 --set life.repetitions=7 --set life.period=3";
   bar.file("light.toml", "extends = 'bar_life.toml'\nparameters = { F = '2 MN' }\n");
   bar.life(own, " --set parameters.T_s=1.5");
-  expect_answer(bar.again(changes), 0, {"class", "63", "results_life"});
+  expect_answer(bar.again(changes), 0, {"category 63", "results_life"});
   const std::string again = life_members(bar.summary_again());
   bar.life(own, " --set parameters.T_s=1.5" + changes);
   EXPECT_EQ(again, life_members(bar.summary()));
@@ -143,7 +143,7 @@ TEST(LifeRun, NamesWhatStatesDependOn)
                 {"depend on life.step, run.end;", "gestell life SCENE"});
   expect_answer(bar.again(" -o '" + bar.results() + "'"), 2, {"life_states.bin"});
   bar.file("light.toml", "extends = 'bar_life.toml'\nparameters = { F = '1 MN' }\n");
-  expect_answer(bar.again(""), 2, {"light.toml has changed since", "gestell life SCENE"});
+  expect_answer(bar.again(""), 2, {"'parameters' of the block light.toml has changed since", "gestell life SCENE"});
   bar.file("light.toml", "extends = 'bar_life.toml'\nparameters = { F = '2 MN' }\n");
   expect_answer(bar.again(""), 0, {"Life of the frame"});
   const std::string whole = bar.states("");
