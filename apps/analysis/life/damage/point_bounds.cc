@@ -49,14 +49,14 @@ PointBounds::PointBounds(const PointStresses &stresses, const std::vector<int> &
   for (const LoadBlock &block : stresses.load().blocks)
     most_cycles_ += 0.5 * block.repetitions * double(block.end - block.first);
   // loads that are ten times closer from one to the next; before them one without components, of which only the total
-  // variation counts, but no sign is known; more than an eighth of all numbers would cost more than they save
+  // variation counts, but no sign is known; more than half of all numbers would save nothing
   std::vector<double> tolerances{0.1, 0.01, 0.001};
   if (!stresses.is_signed())
     tolerances.insert(tolerances.begin(), 2.);
   for (const double tolerance : tolerances)
   {
     CoarseLoad load = coarse_load(states_, stresses.load(), tolerance, loads_.empty() ? nullptr : &loads_.back());
-    if (8 * load.components.size() > states_.components.size())
+    if (2 * load.components.size() > states_.components.size())
       break;
     loads_.push_back(std::move(load));
   }
@@ -86,85 +86,50 @@ double PointBounds::of_cycles(double error, double variation, double largest, co
   return (1. + rounding_of_bounds) * damage_of(cycles_, rule);
 }
 
-void PointBounds::compute_histories(const MatrixXd &parts, const VectorXd &offset, const CoarseLoad &load)
+/// Of histories_.col(i).
+double PointBounds::of_linear(Index i, const VectorXd &norms, const CoarseLoad &load)
 {
-  histories_.resize(load.components.rows(), parts.rows());
+  count_cycles(histories_.col(i).data(), load.load, cycles_);
+  return of_cycles(error_of(norms, load, states_.measured), norms.dot(load.variation.matrix()),
+                   histories_.col(i).maxCoeff());
+}
+
+/// Of six of histories_ from i on.
+double PointBounds::of_signed(Index i, const VectorXd &norms, const VectorXd &traces, const CoarseLoad &load)
+{
+  const auto   V           = histories_.middleCols<5>(i);
+  const double largest     = std::sqrt(V.rowwise().squaredNorm().maxCoeff());
+  const double error       = error_of(norms, load, states_.measured) + rounding_of_bounds * largest;
+  const double trace_error = error_of(traces, load, states_.measured) + trace_of_rounding * (largest + error);
+  signed_path({V, histories_.col(i + 5), error, trace_error, traces + trace_of_rounding * norms}, load, path_);
+  count_cycles(path_.history.data(), path_.load, cycles_);
+  return of_cycles(error, path_.variation + norms.dot(load.variation.matrix()), largest, path_.flips);
+}
+
+VectorXd PointBounds::of_rows(const MatrixXd &rows, int level)
+{
+  const bool  is_signed = stresses_.is_signed();
+  const Index each      = is_signed ? 6 : 1;
+  VectorXd    bound     = VectorXd::Constant(rows.rows() / each, std::numeric_limits<double>::infinity());
+  if (level >= n_levels())
+    return bound;
+  const CoarseLoad &load   = loads_[std::size_t(level)];
+  MatrixXd          parts  = rows * states_.basis;
+  VectorXd          offset = rows * states_.mean;
+  if (is_signed)
+    for (Index i = 0; i < rows.rows(); i += 6)
+    {
+      parts.middleRows<6>(i) = (von_mises_and_trace() * parts.middleRows<6>(i)).eval();
+      offset.segment<6>(i)   = (von_mises_and_trace() * offset.segment<6>(i)).eval();
+    }
+  histories_.resize(load.components.rows(), rows.rows());
   histories_.noalias() = load.components * parts.leftCols(load.components.cols()).transpose();
   histories_.rowwise() += offset.transpose();
-}
-
-VectorXd PointBounds::of_rows(const MatrixXd &parts, const VectorXd &offset, const CoarseLoad &load)
-{
-  compute_histories(parts, offset, load);
-  const MatrixXd norms = parts.cwiseAbs().transpose();
-  VectorXd       bound(parts.rows());
   for (Index i = 0; i < bound.size(); ++i)
-  {
-    count_cycles(histories_.col(i).data(), load.load, cycles_);
-    bound[i] = of_cycles(error_of(norms.col(i), load, states_.measured), norms.col(i).dot(load.variation.matrix()),
-                         histories_.col(i).maxCoeff());
-  }
+    bound[i] = is_signed ? of_signed(6 * i, parts.middleRows<5>(6 * i).colwise().norm().transpose(),
+                                     parts.row(6 * i + 5).cwiseAbs().transpose(), load)
+                         : of_linear(i, parts.row(i).cwiseAbs().transpose(), load);
   return bound;
-}
-
-VectorXd PointBounds::of_norms(const MatrixXd &parts, const VectorXd &offset, const CoarseLoad &load)
-{
-  compute_histories(parts, offset, load);
-  VectorXd bound(parts.rows() / 6);
-  for (Index i = 0; i < bound.size(); ++i)
-  {
-    const auto     V           = histories_.middleCols<5>(6 * i);
-    const VectorXd norms       = parts.middleRows<5>(6 * i).colwise().norm().transpose();
-    const VectorXd traces      = parts.row(6 * i + 5).cwiseAbs().transpose();
-    const double   largest     = std::sqrt(V.rowwise().squaredNorm().maxCoeff());
-    const double   error       = error_of(norms, load, states_.measured) + rounding_of_bounds * largest;
-    const double   trace_error = error_of(traces, load, states_.measured) + trace_of_rounding * (largest + error);
-    signed_path({V, histories_.col(6 * i + 5), error, trace_error, traces + trace_of_rounding * norms}, load, path_);
-    count_cycles(path_.history.data(), path_.load, cycles_);
-    bound[i] = of_cycles(error, path_.variation + norms.dot(load.variation.matrix()), largest, path_.flips);
-  }
-  return bound;
-}
-
-VectorXd PointBounds::of_points(const std::vector<int> &points, int level)
-{
-  constexpr Index   in_cache = 1 << 14; // numbers of histories that are multiplied together
-  const CoarseLoad &load     = loads_[std::size_t(level)];
-  VectorXd          bound(points.size());
-  Index             first = 0;
-  const auto        visit = [&](const std::vector<int> &some)
-  {
-    const MatrixXd S      = stresses_.matrices(some);
-    MatrixXd       parts  = S * states_.basis;
-    VectorXd       offset = S * states_.mean;
-    const auto     n      = Index(some.size());
-    if (stresses_.is_signed())
-    {
-      for (Index i = 0; i < n; ++i)
-      {
-        parts.middleRows<6>(6 * i) = (von_mises_and_trace() * parts.middleRows<6>(6 * i)).eval();
-        offset.segment<6>(6 * i)   = (von_mises_and_trace() * offset.segment<6>(6 * i)).eval();
-      }
-      bound.segment(first, n) = of_norms(parts, offset, load);
-    }
-    else
-      for (Index i = 0; i < n; ++i)
-      {
-        const MeasureRows rows = stresses_.rows(some[std::size_t(i)]);
-        bound[first + i] = of_rows(rows * parts.middleRows<6>(6 * i), rows * offset.segment<6>(6 * i), load).maxCoeff();
-      }
-    first += n;
-  };
-  in_blocks_of(std::clamp<Index>(in_cache / (6 * load.components.rows()), 1, 64), points, visit);
-  return bound;
-}
-
-VectorXd PointBounds::of_rows(const MeasureRows &rows, const PointStress &S)
-{
-  if (loads_.empty())
-    return VectorXd::Constant(rows.rows(), std::numeric_limits<double>::infinity());
-  const PointStress parts = S * states_.basis;
-  return of_rows(rows * parts, rows * (S * states_.mean), loads_.back());
 }
 
 } // namespace gestell::apps

@@ -15,16 +15,17 @@ public:
   PointBounds(const PointStresses &stresses, const std::vector<int> &points);
 
   /// Of coarse loads, each closer than the one before; none: the load has too few samples.
-  int             n_levels() const { return int(loads_.size()); }
-  Eigen::VectorXd of_points(const std::vector<int> &points, int level);
-  /// The closest ones, of each row of a point; infinite without levels.
-  Eigen::VectorXd of_rows(const MeasureRows &rows, const PointStress &S);
+  int n_levels() const { return int(loads_.size()); }
+  /**
+   * @param rows   a of x = a.z; S of one point below that of another for the signed measure
+   * @return one for each row, or for each point; infinite without levels
+   */
+  Eigen::VectorXd of_rows(const Eigen::MatrixXd &rows, int level);
 
 private:
-  void compute_histories(const Eigen::MatrixXd &parts, const Eigen::VectorXd &offset, const CoarseLoad &load);
-  Eigen::VectorXd of_rows(const Eigen::MatrixXd &parts, const Eigen::VectorXd &offset, const CoarseLoad &load);
-  Eigen::VectorXd of_norms(const Eigen::MatrixXd &parts, const Eigen::VectorXd &offset, const CoarseLoad &load);
-  double          of_cycles(double error, double variation, double largest, const std::vector<Cycle> &more = {});
+  double of_linear(Eigen::Index i, const Eigen::VectorXd &norms, const CoarseLoad &load);
+  double of_signed(Eigen::Index i, const Eigen::VectorXd &norms, const Eigen::VectorXd &traces, const CoarseLoad &load);
+  double of_cycles(double error, double variation, double largest, const std::vector<Cycle> &more = {});
 
   const PointStresses    &stresses_;
   PrincipalStates         states_; ///< without components

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -72,28 +71,6 @@ double PointStresses::damage(const double *history)
 {
   count_cycles(history, load_, cycles_);
   return damage_of(cycles_, rule_);
-}
-
-PointDamage PointStresses::worst_row(int point, const Eigen::Ref<const MatrixXd> &sigma, const MeasureRows &rows,
-                                     const VectorXd &bound, double enough)
-{
-  std::vector<Index> order(std::size_t(rows.rows()));
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return bound[a] > bound[b]; });
-  PointDamage worst{point, 0., rows.row(order.front())};
-  VectorXd    history;
-  for (const Index i : order)
-  {
-    if (bound[i] <= std::max(worst.damage, enough))
-      break;
-    const auto &w = rows.row(i);
-    history       = w[0] * sigma.col(0) + w[1] * sigma.col(1) + w[2] * sigma.col(2) + w[3] * sigma.col(3) +
-              w[4] * sigma.col(4) + w[5] * sigma.col(5);
-    const double damage = this->damage(history.data());
-    if (damage > worst.damage)
-      worst = {point, damage, rows.row(i)};
-  }
-  return worst;
 }
 
 } // namespace gestell::apps

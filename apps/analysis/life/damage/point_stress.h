@@ -41,10 +41,6 @@ public:
   Eigen::MatrixXd histories(const Eigen::MatrixXd &rows) const { return states_.transpose() * rows.transpose(); }
 
   double damage(const double *history);
-  /// The worst of `rows`, in the order of their bounds; one whose bound is at most `enough` or the worst found is left
-  /// out.
-  PointDamage worst_row(int point, const Eigen::Ref<const Eigen::MatrixXd> &sigma, const MeasureRows &rows,
-                        const Eigen::VectorXd &bound, double enough);
 
 private:
   const coupling::ReducedStress &stress_;

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <queue>
+#include <set>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -39,16 +40,17 @@ public:
   /// A point with at most this damage changes nothing.
   double enough() const { return worst_.size() == std::size_t(search_.worst) ? worst_.back().damage : -1.; }
 
-  /// `point` is closer than the distance to one of the worst that has at least the damage `bound`.
+  /// `point` is, or is closer than the distance to, one of the worst that has at least the damage `bound`.
   bool near(int point, double bound) const
   {
-    if (search_.distance <= 0.)
-      return false;
     const auto &x = search_.position;
     return std::any_of(worst_.begin(), worst_.end(),
-                       [&](const PointDamage &chosen) {
+                       [&](const PointDamage &chosen)
+                       {
                          return chosen.damage >= bound &&
-                                (x[std::size_t(chosen.point)] - x[std::size_t(point)]).norm() < search_.distance;
+                                (chosen.point == point ||
+                                 (search_.distance > 0. &&
+                                  (x[std::size_t(chosen.point)] - x[std::size_t(point)]).norm() < search_.distance));
                        });
   }
 
@@ -59,51 +61,49 @@ private:
   std::vector<PointDamage> found_, worst_;
 };
 
-struct BoundOfPoint
+/// A row of the measure at a point, or all of its rows.
+struct Candidate
 {
   double bound = 0.;
   int    point = -1;
-  int    level = 0; ///< of the next closer one; all levels: count the cycles
+  int    row   = -1; ///< negative: all
+  int    level = 0;  ///< of the next closer bound; all levels: count the cycles
 
-  /// Order of the queue: largest bound first, then the first point.
-  bool operator<(const BoundOfPoint &other) const
+  /// Order of the queue: largest bound first, then the first point and row.
+  bool operator<(const Candidate &other) const
   {
-    return bound != other.bound ? bound < other.bound : point > other.point;
+    return bound != other.bound ? bound < other.bound : std::pair(point, row) > std::pair(other.point, other.row);
   }
 };
 
-/// Damage of points; of a critical plane the planes that may exceed `enough`, all without `bounds`.
-std::vector<PointDamage> damage_of_points(PointStresses &stresses, PointBounds *bounds, const std::vector<int> &points,
-                                          double enough)
+/// Rows a of x = a.z, or S of a signed measure.
+MatrixXd rows_of(const PointStresses &stresses, int point)
+{
+  const MatrixXd S = stresses.matrices({point});
+  return stresses.is_signed() ? S : MatrixXd(stresses.rows(point) * S);
+}
+
+MatrixXd rows_of(const PointStresses &stresses, const std::vector<Candidate> &some)
+{
+  const Index each = stresses.is_signed() ? 6 : 1;
+  MatrixXd    rows(each * Index(some.size()), stresses.states().rows());
+  for (std::size_t i = 0; i < some.size(); ++i)
+    rows.middleRows(each * Index(i), each) = rows_of(stresses, some[i].point).middleRows(some[i].row, each);
+  return rows;
+}
+
+std::vector<PointDamage> count(PointStresses &stresses, const std::vector<Candidate> &some)
 {
   std::vector<PointDamage> found;
-  if (points.empty())
-    return found;
-  const MatrixXd S = stresses.matrices(points);
-  if (!stresses.is_signed() && stresses.rows(points.front()).rows() == 1)
+  const MatrixXd           x = stresses.histories(rows_of(stresses, some));
+  for (std::size_t i = 0; i < some.size(); ++i)
   {
-    MatrixXd rows(points.size(), S.cols());
-    for (Index i = 0; i < rows.rows(); ++i)
-      rows.row(i) = stresses.rows(points[std::size_t(i)]) * S.middleRows<6>(6 * i);
-    const MatrixXd x = stresses.histories(rows);
-    for (Index i = 0; i < rows.rows(); ++i)
-      found.push_back(
-          {points[std::size_t(i)], stresses.damage(x.col(i).data()), stresses.rows(points[std::size_t(i)])});
-    return found;
-  }
-  const MatrixXd sigma = stresses.histories(S);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const auto at = sigma.middleCols<6>(6 * Index(i));
+    const auto [bound, point, row, level] = some[i];
     if (stresses.is_signed())
-      found.push_back({points[i], stresses.damage(signed_history(at).data()), StressRow::Zero()});
+      found.push_back(
+          {point, stresses.damage(signed_history(x.middleCols<6>(6 * Index(i))).data()), StressRow::Zero()});
     else
-    {
-      const MeasureRows rows  = stresses.rows(points[i]);
-      const VectorXd    bound = bounds ? bounds->of_rows(rows, S.middleRows<6>(6 * Index(i)))
-                                       : VectorXd::Constant(rows.rows(), std::numeric_limits<double>::infinity());
-      found.push_back(stresses.worst_row(points[i], at, rows, bound, enough));
-    }
+      found.push_back({point, stresses.damage(x.col(Index(i)).data()), stresses.rows(point).row(row)});
   }
   return found;
 }
@@ -120,52 +120,71 @@ WorstPoints worst_points(const coupling::ReducedStress &stress, const MatrixXd &
       points.push_back(i);
   if (points.empty() || search.worst <= 0)
     return {};
-  PointBounds                       bounds(stresses, points);
-  std::priority_queue<BoundOfPoint> queue;
-  const auto                        bound_closer = [&](const std::vector<int> &some, int level)
+  PointBounds                    bounds(stresses, points);
+  const int                      first_level = std::min(1, bounds.n_levels());
+  std::priority_queue<Candidate> queue;
+  for (const int point : points)
   {
-    const VectorXd bound = level < bounds.n_levels()
-                               ? bounds.of_points(some, level)
-                               : VectorXd::Constant(Index(some.size()), std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < some.size(); ++i)
-      queue.push({bound[Index(i)], some[i], level + 1});
-  };
-  bound_closer(points, 0);
+    const VectorXd bound = bounds.of_rows(rows_of(stresses, point), 0);
+    queue.push({bound.maxCoeff(), point, bound.size() > 1 ? -1 : 0, first_level});
+  }
 
   // multiplied together: samples x 6 x 8 numbers of stress
   constexpr std::size_t at_once = 8;
   Ranking               ranking(search);
-  WorstPoints           result;
+  std::set<int>         looked_at;
   while (!queue.empty() && queue.top().bound > ranking.enough())
   {
-    const double     next  = queue.top().bound;
-    const int        level = queue.top().level;
-    std::vector<int> some;
-    for (;
-         !queue.empty() && some.size() < at_once && queue.top().bound > ranking.enough() && queue.top().level == level;
+    const Candidate        next = queue.top();
+    std::vector<Candidate> some;
+    for (; !queue.empty() && some.size() < at_once && queue.top().bound > ranking.enough() &&
+           queue.top().level == next.level && (queue.top().row < 0) == (next.row < 0);
          queue.pop())
-      if (!ranking.near(queue.top().point, next))
-        some.push_back(queue.top().point);
-    if (some.empty())
-      continue;
-    if (level < bounds.n_levels())
+      if (!ranking.near(queue.top().point, next.bound))
+        some.push_back(queue.top());
+    if (next.row < 0)
+      for (const Candidate &all : some)
+      {
+        const VectorXd bound = bounds.of_rows(rows_of(stresses, all.point), 0);
+        for (Index i = 0; i < bound.size(); ++i)
+          queue.push({bound[i], all.point, int(i), first_level});
+      }
+    else if (next.level < bounds.n_levels())
     {
-      bound_closer(some, level);
-      continue;
+      const VectorXd bound = bounds.of_rows(rows_of(stresses, some), next.level);
+      for (std::size_t i = 0; i < some.size(); ++i)
+        queue.push({std::min(some[i].bound, bound[Index(i)]), some[i].point, some[i].row, next.level + 1});
     }
-    // with a distance a worse point may displace others, so that points below them count again
-    ranking.add(damage_of_points(stresses, &bounds, some, search.distance > 0. ? -1. : ranking.enough()));
-    result.looked_at += static_cast<int>(some.size());
+    else
+    {
+      ranking.add(count(stresses, some));
+      for (const Candidate &counted : some)
+        looked_at.insert(counted.point);
+    }
   }
-  result.worst = ranking.worst();
-  return result;
+  return {ranking.worst(), int(looked_at.size())};
 }
 
 PointDamage point_damage(const coupling::ReducedStress &stress, const MatrixXd &states, const LoadSequence &load,
                          const DamageRule &rule, const DamageSearch &search, int point)
 {
-  PointStresses stresses(stress, states, load, rule, search);
-  return damage_of_points(stresses, nullptr, {point}, -1.).front();
+  PointStresses  stresses(stress, states, load, rule, search);
+  const MatrixXd S = stresses.matrices({point});
+  if (stresses.is_signed())
+    return {point, stresses.damage(signed_history(stresses.histories(S)).data()), StressRow::Zero()};
+  const MeasureRows rows = stresses.rows(point);
+  if (rows.rows() == 1)
+    return {point, stresses.damage(stresses.histories(rows * S).data()), rows};
+  const MatrixXd sigma = stresses.histories(S);
+  PointDamage    worst{point, 0., rows.row(0)};
+  for (Index i = 0; i < rows.rows(); ++i)
+  {
+    const VectorXd x      = sigma * rows.row(i).transpose();
+    const double   damage = stresses.damage(x.data());
+    if (damage > worst.damage)
+      worst = {point, damage, rows.row(i)};
+  }
+  return worst;
 }
 
 VectorXd stress_history(const coupling::ReducedStress &stress, const MatrixXd &states, const DamageSearch &search,
