@@ -119,6 +119,10 @@ TEST(PartsScene, RefusesWhatDoesNotFit)
       said(bars(middle + outer, "",
                 "damping = { rayleigh = [{ frequency = 20, ratio = 0.01 }, { frequency = 90, ratio = 0.02 }] }\n")),
       HasSubstr("set it for the parts"));
+  std::string cut = bars(middle + outer, "", "prestress = { tie_rods = true }\n");
+  EXPECT_EQ(said(cut), "");
+  cut.insert(cut.find("placement = { origin = [2, 0, 0] }"), "parts = 2\n");
+  EXPECT_THAT(said(cut), HasSubstr("needs each part in one piece; remove 'parts' of frame.part.arm"));
 }
 
 } // namespace
