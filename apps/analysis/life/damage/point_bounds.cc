@@ -80,6 +80,8 @@ double PointBounds::of_cycles(double error, double variation, double largest, co
   {
     const double R     = rule.curve.ratio.value_or(-1.); // a cycle of this ratio is its own equivalent
     const double range = 2. * error * rule.mean_stress.largest_factor(largest + error, rule.curve.ratio);
+    if (!std::isfinite(range)) // a mean above the tensile strength
+      return std::numeric_limits<double>::infinity();
     cycles_.push_back(
         {range, 0.5 * range * (1. + R) / (1. - R), std::min(most_cycles_, variation / (4. * error)), 0, 0});
   }

@@ -195,5 +195,41 @@ TEST(PointBounds, AreAboveTheDamageAndComeCloser)
     }
 }
 
+/// The same for random stresses and loads, with a tensile strength that some means exceed.
+TEST(PointBounds, AreAboveTheDamageOfRandomLoads)
+{
+  std::mt19937               random(7);
+  std::normal_distribution<> normal;
+  for (int round = 0; round < 500; ++round)
+  {
+    const int    n = 1 + int(random() % 5), samples = 8 + int(random() % 300);
+    NotchedPlate plate(3, samples, n);
+    for (float &stress : plate.stress.mean.reshaped())
+      stress = float(normal(random));
+    for (int j = 0; j < n; ++j)
+      plate.states.row(j) = 3e7 / (1. + 2. * j) * walk(samples, random).transpose();
+    if (round % 3) // a smooth load
+      for (int j = 0; j < n; ++j)
+        for (int k = 0; k < samples; ++k)
+          plate.states(j, k) = 5e7 * (0.3 * j + std::sin(0.03 * (1 + round % 7) * k + j) / (1. + j));
+    const auto         load = blocks(samples, round % 2 ? Residue::half : Residue::repeated, random);
+    const DamageRule   rule{table_curve({{1e4, 2e8}, {1e6, round % 5 ? 6e7 : 1.5e8}, {1e8, 2e7}}, 1., -1.),
+                          mean_stresses()[random() % 3], Miner(random() % 3)};
+    const DamageSearch search =
+        plate.search(round % 4 ? StressMeasure::signed_von_mises : StressMeasure::critical_plane, 1);
+    PointStresses stresses(plate.stress, plate.states, load, rule, search);
+    PointBounds   bounds(stresses, {0, 1, 2});
+    for (int i = 0; i < 3; ++i)
+      for (int level = 0; level < bounds.n_levels(); ++level)
+      {
+        const MatrixXd S    = stresses.matrices({i});
+        const MatrixXd rows = stresses.is_signed() ? S : MatrixXd(stresses.rows(i) * S);
+        ASSERT_GE(bounds.of_rows(rows, level).maxCoeff(),
+                  point_damage(plate.stress, plate.states, load, rule, search, i).damage)
+            << "round " << round << ", level " << level;
+      }
+  }
+}
+
 } // namespace
 } // namespace gestell::tests
