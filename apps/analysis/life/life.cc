@@ -111,7 +111,7 @@ public:
       if (!kept_)
         found.states = life_states_bin(session.variant(), frame, load);
       if (refine_)
-        refine_error(session, load, found);
+        refine_error(session, *load, found);
       if (!keys_.empty())
         found.derivatives = life_derivatives(session, found, keys_);
       const auto warnings = life_warnings(scene, found);

@@ -100,7 +100,7 @@ double ratio_of_lives(double a, double b)
 
 double largest_von_mises(const ReducedStress &stress, const MatrixXd &states, int point)
 {
-  const MatrixXd S = von_mises_norm() * stress.mean.middleRows<6>(6 * Index(point)).cast<double>();
+  const MatrixXd S = von_mises_and_trace().topRows<5>() * stress.mean.middleRows<6>(6 * Index(point)).cast<double>();
   return std::sqrt((S * states).colwise().squaredNorm().maxCoeff());
 }
 

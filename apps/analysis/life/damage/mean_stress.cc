@@ -48,6 +48,11 @@ double MeanStress::equivalent_range(double range, double mean, std::optional<dou
   return reversed / (1. + std::max(s, 0.) * 0.5 * reversed / tensile_strength);
 }
 
+double MeanStress::neutral_mean(double range, std::optional<double> ratio) const
+{
+  return 0.5 * range * mean_over_amplitude(rule == Rule::eurocode ? 0. : ratio.value_or(-1.));
+}
+
 double MeanStress::largest_factor(double largest_mean, std::optional<double> ratio) const
 {
   if (rule == Rule::none || rule == Rule::eurocode || !ratio)

@@ -37,6 +37,9 @@ struct MeanStress
   /// @param ratio  R of the curve, < 1; none: the mean has no effect
   double equivalent_range(double range, double mean, std::optional<double> ratio) const;
 
+  /// Mean with which a range is its own equivalent.
+  double neutral_mean(double range, std::optional<double> ratio) const;
+
   /// Upper bound of equivalent_range / range over all cycles with means <= `largest_mean`; may be infinite.
   double largest_factor(double largest_mean, std::optional<double> ratio) const;
 };

@@ -66,7 +66,8 @@ PointBounds::PointBounds(const PointStresses &stresses, const std::vector<int> &
 /// docs/theory/life.md (7): the damage of cycles_ with turning points that move by `error`, of small cycles and others.
 double PointBounds::of_cycles(double error, double variation, double largest, const std::vector<Cycle> &more)
 {
-  const DamageRule &rule = stresses_.rule();
+  const DamageRule &rule   = stresses_.rule();
+  const MeanStress &effect = rule.mean_stress;
   error += rounding_of_bounds * std::abs(largest);
   for (const Cycle &cycle : cycles_)
     variation += 2. * cycle.count * cycle.range;
@@ -74,16 +75,15 @@ double PointBounds::of_cycles(double error, double variation, double largest, co
   for (Cycle &cycle : cycles_)
   {
     cycle.range += 2. * error;
-    cycle.mean += error;
+    cycle.mean = (effect.shear ? std::abs(cycle.mean) : cycle.mean) + error;
   }
   if (error > 0.)
   {
-    const double R     = rule.curve.ratio.value_or(-1.); // a cycle of this ratio is its own equivalent
-    const double range = 2. * error * rule.mean_stress.largest_factor(largest + error, rule.curve.ratio);
+    const double range = 2. * error * effect.largest_factor(largest + error, rule.curve.ratio);
     if (!std::isfinite(range)) // a mean above the tensile strength
       return std::numeric_limits<double>::infinity();
     cycles_.push_back(
-        {range, 0.5 * range * (1. + R) / (1. - R), std::min(most_cycles_, variation / (4. * error)), 0, 0});
+        {range, effect.neutral_mean(range, rule.curve.ratio), std::min(most_cycles_, variation / (4. * error)), 0, 0});
   }
   return (1. + rounding_of_bounds) * damage_of(cycles_, rule);
 }

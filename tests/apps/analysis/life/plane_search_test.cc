@@ -49,7 +49,7 @@ struct OnePoint
 
 DamageRule rule()
 {
-  return {crane_curve(80e6, StressKind::direct, 1.), {}, Miner::original};
+  return {crane_curve(80e6, 3., StressKind::direct, 1.), {}, Miner::original};
 }
 
 /// Blows that ring, of two coordinates out of phase.

@@ -94,10 +94,15 @@ TEST(CyclesOfALoad, HaveHalfItsTotalVariationAndAreThoseOfItsMirrorImage)
 
 std::vector<MeanStress> mean_stresses()
 {
-  return {{}, {MeanStress::Rule::goodman, 6e8, 0.}, {MeanStress::Rule::fkm, 0., 0.3}};
+  return {{},
+          {MeanStress::Rule::goodman, 6e8, 0.},
+          {MeanStress::Rule::fkm, 0., 0.3},
+          {MeanStress::Rule::fkm, 0., 0.3, true},
+          {MeanStress::Rule::eurocode}};
 }
 
-/// Equivalent ranges grow with range and mean, and are at most the largest factor times the range.
+/// Equivalent ranges grow with range and mean (of shear its size), are at most the largest factor times the range, and
+/// equal the range at the neutral mean.
 TEST(MeanStress, GrowsWithRangeAndMean)
 {
   std::mt19937                     random(2);
@@ -107,7 +112,9 @@ TEST(MeanStress, GrowsWithRangeAndMean)
       for (int round = 0; round < 2000; ++round)
       {
         const double r = range(random), s = mean(random), x = effect.equivalent_range(r, s, ratio);
-        EXPECT_GE(effect.equivalent_range(r + more(random), s + more(random), ratio), x * (1. - 1e-12));
+        const double from = effect.shear ? std::abs(s) : s;
+        EXPECT_GE(effect.equivalent_range(r + more(random), from + more(random), ratio), x * (1. - 1e-12));
+        EXPECT_NEAR(effect.equivalent_range(r, effect.neutral_mean(r, ratio), ratio), r, 1e-12 * r);
         EXPECT_LE(x, r * effect.largest_factor(s, ratio) * (1. + 1e-12));
       }
 }

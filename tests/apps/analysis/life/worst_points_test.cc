@@ -102,7 +102,7 @@ std::vector<DamageRule> rules()
 {
   const MeanStress fkm{MeanStress::Rule::fkm, 0., 0.2}, goodman{MeanStress::Rule::goodman, 600. * megapascal, 0.};
   return {{eurocode_curve(71. * megapascal, StressKind::direct, 1.), {}, Miner::original},
-          {crane_curve(80. * megapascal, StressKind::direct, 1.), {}, Miner::elementary},
+          {crane_curve(80. * megapascal, 3., StressKind::direct, 1.), {}, Miner::elementary},
           {fkm_curve(fkm_material("steel"), 300. * megapascal, StressKind::direct, 8.), fkm, Miner::consequent},
           {table_curve({{1e4, 200. * megapascal}, {1e5, 150. * megapascal}, {1e7, 20. * megapascal}}, 1., -1.), goodman,
            Miner::elementary}};
@@ -162,8 +162,11 @@ TEST_P(WorstPointsOf, AreThoseOfCountingAllPointsUnderEveryRule)
     return table_curve({{1e3, 2e8}, {1e5, knee}, {1e8, 1e7}}, 1., -1.); // slopes that increase, or decrease
   };
   const DamageSearch search = plate.search(GetParam(), 3);
-  for (const MeanStress &effect :
-       {MeanStress{}, {MeanStress::Rule::fkm, 0., 0.3}, {MeanStress::Rule::goodman, 6e8, 0.}})
+  for (const MeanStress &effect : {MeanStress{},
+                                   {MeanStress::Rule::fkm, 0., 0.3},
+                                   {MeanStress::Rule::fkm, 0., 0.3, true},
+                                   {MeanStress::Rule::goodman, 6e8, 0.},
+                                   {MeanStress::Rule::eurocode}})
     for (const Miner miner : {Miner::original, Miner::elementary, Miner::consequent})
       for (const Residue residue : {Residue::repeated, Residue::half})
         for (const double knee : {4e7, 1.2e8})
