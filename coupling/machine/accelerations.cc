@@ -26,8 +26,9 @@ namespace
       break;
     }
   }
-  throw std::invalid_argument("accelerations are undefined for this machine: " + massless +
-                              " has no mass; give it a mass, or remove accelerations from output.signals");
+  throw std::invalid_argument(
+      "accelerations are undefined for this machine: " + massless +
+      " has no mass; give it a mass, or remove accelerations and forces of supports and cuts from output.signals");
 }
 
 } // namespace

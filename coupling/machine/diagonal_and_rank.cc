@@ -47,9 +47,9 @@ DiagonalAndRank guess(const MatrixXd &A, double negligible, Index most)
 
   const SymmetricEigenSolver solver(0.5 * (S + S.transpose()));
   const VectorXd             root = solver.eigenvalues().cwiseAbs().cwiseSqrt();
-  parts.signs                     = solver.eigenvalues().cwiseSign();
   if (!(root.minCoeff() > 0.))
     return parts;
+  parts.signs            = solver.eigenvalues().cwiseSign();
   const MatrixXd E       = solver.eigenvectors();
   parts.G                = MatrixXd(n, k);
   parts.G(P, Eigen::all) = U * E * root.asDiagonal();

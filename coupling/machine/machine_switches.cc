@@ -44,7 +44,9 @@ Signal MachineParts::watched_signal(const Switch &request) const
 {
   try
   {
-    const Signal watched = signal(request.signal);
+    Signal watched = signal(request.signal);
+    if (!watched.on_q.empty()) // a force of the frame: without the inertia beyond its modes, which is not continuous
+      watched.on_a.clear();
     if (watched.reads_acceleration())
       throw std::invalid_argument("\"" + request.signal +
                                   "\" is an acceleration, which cannot trigger a switch; use a force or a velocity");

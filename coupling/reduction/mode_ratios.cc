@@ -172,16 +172,33 @@ public:
     G_      = solver.eigenvectors()(Eigen::all, kept);
   }
 
-  /// s b^T K^-1 b, K = s^2 E + s (B + diag(d)) + diag(omega^2) of the modes other than j, b the entries of B to them.
-  Complex effect_on(Eigen::Index j, const VectorXd &d, const VectorXd &omega, const Complex &s) const
+  /// The equation (10b) of mode j over s, with a share tau of B, and y: K y = 0 but for row j, y_j = 1.
+  struct Equation
   {
-    Eigen::VectorXcd inverse  = (s * s + s * d.array() + omega.array().square()).inverse();
-    inverse[j]                = 0.;
-    const Eigen::MatrixXcd Gc = G_.cast<Complex>(), T = Gc.transpose() * (inverse.asDiagonal() * Gc);
-    const Eigen::VectorXcd b = lambda_.cwiseProduct(G_.row(j).transpose()).cast<Complex>();
-    const Eigen::MatrixXcd K = MatrixXd::Identity(T.rows(), T.cols()) + s * (lambda_.cast<Complex>().asDiagonal() * T);
-    const Eigen::VectorXcd x = Eigen::PartialPivLU<Eigen::MatrixXcd>(K).solve(b);
-    return s * (b.transpose() * (T * x)).value();
+    Complex          value, by_s; ///< and its derivative
+    Eigen::VectorXcd y;
+  };
+  Equation of_mode(Eigen::Index j, const VectorXd &d, const VectorXd &omega, const Complex &s, double tau) const
+  {
+    const VectorXd   lambda  = tau * lambda_;
+    Eigen::VectorXcd inverse = (s * s + s * d.array() + omega.array().square()).inverse();
+    inverse[j]               = 0.;
+    const Eigen::MatrixXcd G = G_.cast<Complex>();
+    const Eigen::MatrixXcd E = MatrixXd::Identity(G.cols(), G.cols()), T = G.transpose() * (inverse.asDiagonal() * G);
+    const Eigen::VectorXcd g = lambda.cwiseProduct(G_.row(j).transpose()).cast<Complex>();
+    const Eigen::VectorXcd x = Eigen::PartialPivLU<Eigen::MatrixXcd>(E + s * (lambda.asDiagonal() * T)).solve(g);
+
+    Equation result;
+    result.y                       = -s * inverse.cwiseProduct(G * x);
+    result.y[j]                    = 1.;
+    const Eigen::VectorXcd z       = G.transpose() * result.y;
+    const Complex          B       = (z.transpose() * (lambda.asDiagonal() * z)).value();
+    const Complex          squares = (result.y.transpose() * result.y).value();
+    const Complex          dampers = (result.y.transpose() * (d.asDiagonal() * result.y)).value();
+    const Complex          b_jj    = (G_.row(j).cwiseAbs2() * lambda).value();
+    result.value                   = s + d[j] + b_jj - s * (g.transpose() * (T * x)).value() + omega[j] * omega[j] / s;
+    result.by_s                    = (2. * s * squares + B + dampers - result.value) / s;
+    return result;
   }
 
 private:
@@ -189,30 +206,139 @@ private:
   MatrixXd G_;
 };
 
-/// d of the modes with ratios of their own, one after the other until they do not change.
-void solve_named(const std::vector<NamedMode> &named, const VectorXd &omega, const MatrixXd &B, VectorXd &d)
+/// d and |s| of the modes with ratios of their own by Newton's method, docs/theory/reduction.md (10b).
+class NamedDampers
 {
-  const DampingBetween between(B);
-  constexpr int        most   = 100;
-  constexpr double     end    = 1e-14; // of omega
-  double               change = 1.;
-  VectorXd             size   = omega; // |s|
-  for (int i = 0; i < most && change > end; ++i)
+public:
+  NamedDampers(const std::vector<NamedMode> &named, const VectorXd &omega, const MatrixXd &B, VectorXd d)
+      : named_(named), omega_(omega), between_(B), d_(std::move(d)), size_(omega)
   {
-    change = 0.;
-    for (const NamedMode &one : named)
-    {
-      const auto    j    = one.mode;
-      const double  zeta = one.ratio->ratio, eta = std::sqrt(1. - zeta * zeta), square = omega[j] * omega[j];
-      const Complex by   = between.effect_on(j, d, omega, size[j] * Complex(-zeta, eta));
-      const double  half = 0.5 * by.imag() / eta;
-      size[j]            = half + std::sqrt(half * half + square);
-      const double next  = zeta * (size[j] + square / size[j]) - B(j, j) + by.real();
-      change             = std::max(change, std::abs(next - d[j]) / omega[j]);
-      d[j]               = next;
-    }
   }
-}
+
+  /// From no damping between modes to all of it in steps that converge.
+  /// @throws std::invalid_argument with the mode that has no solution
+  VectorXd solve()
+  {
+    constexpr double least = 1. / 256.; // of the damping between modes: where steps become small there is no solution
+    double           tau = 0., step = 1.;
+    while (tau < 1.)
+    {
+      const VectorXd d = d_, size = size_;
+      if (converges(tau + step))
+      {
+        tau += step;
+        step = std::min(1. - tau, 2. * step);
+        continue;
+      }
+      d_ = d, size_ = size;
+      step *= 0.5;
+      if (step < least)
+        refuse_coupled();
+    }
+    return d_;
+  }
+
+private:
+  bool converges(double tau)
+  {
+    constexpr int    most    = 30;
+    constexpr double settled = 1e-13; // of omega: rounding
+    for (int i = 0; i < most; ++i)
+    {
+      const double error = equations(tau);
+      if (error <= settled)
+        return distinct();
+      const VectorXd change = Eigen::PartialPivLU<MatrixXd>(jacobian_).solve(-values_);
+      if (!change.allFinite() || !is_closer(change, error, tau))
+        return error <= rounding_ && distinct();
+    }
+    return false;
+  }
+
+  /// Whether each mode has a root of its own.
+  bool distinct()
+  {
+    constexpr double apart = 1e-6; // of omega: far above the error of a root, far below the distance of two
+    for (std::size_t k = 0; k < named_.size(); ++k)
+      for (std::size_t l = 0; l < k; ++l)
+        if (const auto i = named_[k].mode, j = named_[l].mode;
+            std::abs(size_[i] - size_[j]) <= apart * omega_[i] &&
+            std::abs(named_[k].ratio->ratio - named_[l].ratio->ratio) <= apart)
+        {
+          worst_ = Eigen::Index(k);
+          return false;
+        }
+    return true;
+  }
+
+  /// Takes as much of the change as makes the error smaller.
+  bool is_closer(const VectorXd &change, double error, double tau)
+  {
+    const VectorXd d = d_, size = size_;
+    for (double part = 1.; part > 1e-3; part *= 0.5) // below it, it is not the curvature
+    {
+      for (std::size_t k = 0; k < named_.size(); ++k)
+      {
+        const Eigen::Index j = named_[k].mode;
+        d_[j]                = d[j] + part * change[Eigen::Index(2 * k)];
+        size_[j]             = size[j] + part * change[Eigen::Index(2 * k + 1)];
+      }
+      if (size_.minCoeff() >= 0. && equations(tau) < error)
+        return true;
+    }
+    d_ = d, size_ = size;
+    return false;
+  }
+
+  /// Values and derivatives of (10b); returns the largest error over omega.
+  double equations(double tau)
+  {
+    const auto n = Eigen::Index(named_.size());
+    values_.resize(2 * n);
+    jacobian_.resize(2 * n, 2 * n);
+    double largest = 0.;
+    for (Eigen::Index k = 0; k < n; ++k)
+    {
+      const Eigen::Index j     = named_[std::size_t(k)].mode;
+      const double       zeta  = named_[std::size_t(k)].ratio->ratio;
+      const Complex      angle = Complex(-zeta, std::sqrt(1. - zeta * zeta));
+      const auto         own   = between_.of_mode(j, d_, omega_, size_[j] * angle, tau);
+      const auto         put   = [&](Eigen::Index column, const Complex &value)
+      {
+        jacobian_(2 * k, column)     = value.real();
+        jacobian_(2 * k + 1, column) = value.imag();
+      };
+      values_.segment<2>(2 * k) << own.value.real(), own.value.imag();
+      for (Eigen::Index l = 0; l < n; ++l)
+      {
+        const Complex y = own.y[named_[std::size_t(l)].mode];
+        put(2 * l, y * y);
+        put(2 * l + 1, l == k ? own.by_s * angle : 0.);
+      }
+      if (const double error = std::abs(own.value) / omega_[j]; !(error <= largest))
+        largest = std::isfinite(error) ? error : std::numeric_limits<double>::infinity(), worst_ = k;
+    }
+    return largest;
+  }
+
+  [[noreturn]] void refuse_coupled() const
+  {
+    const NamedMode &one = named_[std::size_t(worst_)];
+    refuse(*one.ratio, "mode " + std::to_string(one.number) + " of the frame, " + rounded(omega_[one.mode] / two_pi) +
+                           " Hz, is coupled by dampers with modes of nearly the same frequency, so that no modal "
+                           "damper gives it a ratio of " +
+                           percent(one.ratio->ratio) + "; leave it out, or weaken the dampers of foundations");
+  }
+
+  static constexpr double       rounding_ = 1e-10; ///< of omega: accepted where Newton's method comes no closer
+  const std::vector<NamedMode> &named_;
+  const VectorXd               &omega_;
+  DampingBetween                between_;
+  VectorXd                      d_, size_;
+  VectorXd                      values_;
+  MatrixXd                      jacobian_;
+  Eigen::Index                  worst_ = 0;
+};
 
 } // namespace
 
@@ -248,7 +374,7 @@ VectorXd modal_dampers(const fem::ModalRatios &ratios, const VectorXd &omega, co
   const auto named = named_modes(ratios, omega);
   if (named.empty() || B.isZero(0.))
     return d;
-  solve_named(named, omega, B, d);
+  d                         = NamedDampers(named, omega, B, std::move(d)).solve();
   constexpr double rounding = 1e-12; // of omega
   for (const NamedMode &one : named)
   {

@@ -122,12 +122,14 @@ MatrixXd without_high_modes(const ReducedFrame &frame, MatrixXd states)
   return states;
 }
 
-/// From the effect of the higher half of the modes to that of the truncated ones; at least all of it, as resonances in
-/// this half are beyond the law.
+/// From the effect of the higher half of the modes to that of the truncated ones, by the frequencies of the last mode
+/// with and without this half; at least all of it, as resonances in this half are beyond the law.
 double rest_of_modes(const ReducedFrame &frame)
 {
-  const int modes = int(frame.M.rows()) - frame.n_interface;
-  return std::max(1., truncation_factor(frame.omega0, modes - modes / 2, truncation_power(true, false)) - 1.);
+  const int modes = int(frame.M.rows()) - frame.n_interface, last = modes - modes / 2 - 1;
+  if (last < 0 || !(frame.omega0[last] < frame.omega0[modes - 1]))
+    return 1.;
+  return std::max(1., truncation_factor(frame.omega0, last, truncation_power(true, false)) - 1.);
 }
 
 /// Loads for the error of a life.

@@ -29,6 +29,8 @@ MeanStress effect_of(const LifeRequest &life, const CurveRequest &curve, StressK
 {
   MeanStress effect;
   effect.shear = kind == StressKind::shear;
+  if (curve.stress_relieved && effect.shear)
+    throw std::invalid_argument("stress_relieved concerns compression, which a shear stress does not have; remove it");
   if (curve.stress_relieved)
     effect.rule = MeanStress::Rule::eurocode;
   if (life.mean_stress == "none" || !has_ratio)

@@ -95,11 +95,13 @@ Eigen::VectorXd swing_changes(const coupling::Signal &signal, const coupling::Ma
                               const std::vector<coupling::Mode>              &modes,
                               const std::vector<const coupling::KeptState *> &path)
 {
-  const Eigen::MatrixXd M = coupling::dense_mass(machine);
-  Eigen::VectorXd       c = Eigen::VectorXd::Zero(Eigen::Index(modes.size()));
-  if (signal.reads_acceleration())
-    return c; // a force that inertia takes part in
-  ForceBetween force(signal, machine);
+  const Eigen::MatrixXd M    = coupling::dense_mass(machine);
+  Eigen::VectorXd       c    = Eigen::VectorXd::Zero(Eigen::Index(modes.size()));
+  coupling::Signal      held = signal; // a force of the frame by its deformation, without the inertia beyond its modes
+  held.on_a.clear();
+  if (held.reads_acceleration())
+    return c;
+  ForceBetween force(held, machine);
   for (std::size_t k = 0; k + 1 < path.size(); ++k)
   {
     const Eigen::VectorXd moved = M * (path[k + 1]->q - path[k]->q), middle = 0.5 * (path[k]->q + path[k + 1]->q);

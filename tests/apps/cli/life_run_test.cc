@@ -260,6 +260,9 @@ TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
   refused("life.repetitions = 0.5\n", {"needs a number of 1 or more"});
   refused("life.curve.slope = 5\n", {"life.curve.slope", "EN 13001-3-1"});
   refused("life.curve = { standard = 'EN 13001-3-1', stress_relieved = true }\n", {"stress_relieved", "EN 1993-1-9"});
+  refused("[[life.weld]]\nsurfaces = ['top']\ndirection = [1, 0, 0]\nstress = 'shear'\n"
+          "curve = { class = 80, stress_relieved = true }\n",
+          {"stress_relieved", "a shear stress does not have"});
   expect_answer(bar.life("", " --life-by parameters.G"), 2, {"--life-by parameters.G"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nframe.material.E = '200 GPa'\n");
   refused("[[life.block]]\nscene = 'other.toml'\n", {"has a different frame", "material or dimensions differ"});

@@ -1,4 +1,5 @@
 #include "coupling/reduction/modal_damping.h"
+#include "coupling/reduction/mode_ratios.h"
 #include "coupling/reduction/reduce_frame.h"
 
 #include "coupling/algebra/dense_modes.h"
@@ -11,6 +12,8 @@
 #include "tests/support/lattice.h"
 #include "tests/support/refusal.h"
 #include "tests/support/test.h"
+
+#include <Eigen/Eigenvalues>
 
 namespace gestell
 {
@@ -30,6 +33,52 @@ fem::FrameMatrices without_dampers(Lattice lattice)
 {
   lattice.damper = 0.;
   return frame_of(lattice);
+}
+
+/// Ratios of the roots of s^2 + s (B + diag(d)) + diag(omega^2).
+VectorXd ratios_of_roots(const VectorXd &omega, const MatrixXd &damping)
+{
+  const Eigen::Index n = omega.size();
+  MatrixXd           A = MatrixXd::Zero(2 * n, 2 * n);
+  A.topRightCorner(n, n).setIdentity();
+  A.bottomLeftCorner(n, n)  = -MatrixXd(omega.cwiseAbs2().asDiagonal());
+  A.bottomRightCorner(n, n) = -damping;
+  const Eigen::VectorXcd s  = Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues();
+  return (-s.real().array() / s.array().abs()).matrix();
+}
+
+/// Close modes that dampers couple: the roots have the ratios, or there is an error.
+TEST(ModalDamping, OfNamedModesIsExactOrRefusedWhereDampersCoupleCloseModes)
+{
+  std::srand(6);
+  int solved = 0, rounds = 300;
+  for (int round = 0; round < rounds; ++round)
+  {
+    const int n     = 2 + round % 4;
+    VectorXd  omega = 100. + 4. * VectorXd::Random(n).array();
+    std::sort(omega.begin(), omega.end());
+    const MatrixXd   g = 1.5 * MatrixXd::Random(n, 1 + round % 2), B = g * g.transpose();
+    fem::ModalRatios ratios = 0.02;
+    for (int j = 0; j < n; j += 1 + round % 3 / 2)
+      ratios.named.push_back({0.03 + 0.004 * (round % 5 ? j : 0), j});
+    try
+    {
+      const VectorXd d     = coupling::modal_dampers(ratios, omega, B);
+      const VectorXd roots = ratios_of_roots(omega, B + MatrixXd(d.asDiagonal()));
+      for (const fem::NamedRatio &one : ratios.named)
+      {
+        const auto asked = std::count_if(ratios.named.begin(), ratios.named.end(),
+                                         [&](const fem::NamedRatio &other) { return other.ratio == one.ratio; });
+        EXPECT_GE(((roots.array() - one.ratio).abs() < 1e-9).count(), 2 * asked) // roots come in pairs
+            << "round " << round << ", mode " << one.mode;
+      }
+      ++solved;
+    }
+    catch (const std::invalid_argument &)
+    {
+    }
+  }
+  EXPECT_GT(solved, rounds / 2);
 }
 
 TEST(ModalDamping, GivesEachModeOfTheFullFrameItsRatioAndNoneAboveAny)
