@@ -112,8 +112,7 @@ public:
   void operator()(const std::string &name, int &x) { x = whole_number(file_, name); }
   void operator()(const std::string &name, std::optional<double> &x)
   {
-    if (file_.has(name))
-      x = file_.read_number(name);
+    x = file_.has(name) ? std::optional(file_.read_number(name)) : std::nullopt;
   }
   void operator()(const std::string &name, Eigen::MatrixXf &A) { A = file_.read_floats(name); }
   template <int rows, int columns>

@@ -1,7 +1,7 @@
 #include "coupling/machine/own_modes.h"
 
 #include "coupling/algebra/dense_modes.h"
-#include "coupling/machine/diagonal_and_rank.h"
+#include "coupling/algebra/diagonal_and_rank.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -118,10 +118,9 @@ double expected_averaged(const MeshedModel &result, const FrameSpecification &sp
 }
 
 /// Of its reduction.
-double memory_of(const FrameSpecification &specification, double n_coordinates, double kappa, double n_averaged)
+double memory_of(const FrameSpecification &specification, double n, double kappa, double n_averaged)
 {
-  return reduction_memory(n_coordinates, kappa, n_averaged) +
-         (specification.prestress ? prestress_memory(n_coordinates) : 0.);
+  return reduction_memory(n, kappa, n_averaged) + (specification.prestress ? prestress_memory(n) : 0.);
 }
 
 /// Refuses a mesh whose frame would not fit into the memory, before it is made.

@@ -3,7 +3,6 @@
 #include "apps/analysis/result_folder.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/checkpoint/checkpoint_file.h"
-#include "apps/version.h"
 #include "coupling/frame/sha256.h"
 #include "coupling/integration/system/state_archive.h"
 
@@ -60,8 +59,7 @@ void add_scene(const std::string &name, const SceneNode &root, std::vector<KeyPa
 
 std::vector<KeyPart> life_key(const Variant &scene, const std::vector<std::string> &recorded)
 {
-  std::vector<KeyPart> key = {{"the version of Gestell", std::string(version)},
-                              record("scene " + fs::absolute(scene.path).lexically_normal().string())};
+  std::vector<KeyPart> key = {version_part(), record("scene " + fs::absolute(scene.path).lexically_normal().string())};
   for (const std::string &change : recorded)
     key.push_back(record("--set " + change));
   add_scene("the scene", scene.root, key);

@@ -87,6 +87,11 @@ KeyPart part(const std::string &what, const Fill &fill)
 
 } // namespace
 
+KeyPart version_part()
+{
+  return {"the version of Gestell", std::string(version)};
+}
+
 KeyPart scene_part(const std::string &what, const SceneNode &scene)
 {
   return part(what, [&](Sha256 &hash) { add(scene, hash); });

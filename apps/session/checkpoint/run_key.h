@@ -16,6 +16,7 @@ struct KeyPart
   std::string what, hash;
 };
 
+KeyPart version_part(); ///< of the program
 /// Keys of a scene, or of a part of it, and the bytes of the files that it names.
 KeyPart scene_part(const std::string &what, const SceneNode &scene);
 KeyPart files_part(const std::string &what, const SceneNode &scene);

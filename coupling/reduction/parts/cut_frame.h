@@ -2,7 +2,7 @@
 
 #include "coupling/reduction/parts/condensed_part.h"
 #include "coupling/reduction/parts/part_interface.h"
-#include "coupling/reduction/parts/parted_frame.h"
+#include "coupling/reduction/parts/parts_call.h"
 #include "fem/process/side_by_side.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/reduction/parts/parts_call.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/assembly/cell_parts.h"
 #include "fem/values/frame_matrices.h"
@@ -9,16 +10,6 @@
 
 namespace gestell::coupling
 {
-
-/// How a frame is reduced in parts.
-struct PartsCall
-{
-  double      alpha = 0., beta = 0.; ///< of Rayleigh damping of the cells
-  std::string place;                 ///< prefix of messages, "press.toml:12: frame"
-  int         at_once = 1;           ///< parts side by side
-  Progress    progress{};
-  std::string prestress{}; ///< place of the loads that the frame is about, or empty
-};
 
 /**
  * Reduces a frame that is cut into parts: each part to its interface and its fixed-interface modes, their sum once more

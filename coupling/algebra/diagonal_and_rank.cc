@@ -1,7 +1,6 @@
-#include "coupling/machine/diagonal_and_rank.h"
+#include "coupling/algebra/diagonal_and_rank.h"
 
-#include "coupling/integration/system/dense_solvers.h"
-
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <cmath>
@@ -45,8 +44,8 @@ DiagonalAndRank guess(const MatrixXd &A, double negligible, Index most)
   const MatrixXd A_12 = half(half(A_P, 0).transpose(), 1).transpose();
   const MatrixXd S    = solution(half(U, 1), solution(half(U, 0), A_12).transpose());
 
-  const SymmetricEigenSolver solver(0.5 * (S + S.transpose()));
-  const VectorXd             root = solver.eigenvalues().cwiseAbs().cwiseSqrt();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (S + S.transpose()));
+  const VectorXd                                root = solver.eigenvalues().cwiseAbs().cwiseSqrt();
   if (!(root.minCoeff() > 0.))
     return parts;
   parts.signs            = solver.eigenvalues().cwiseSign();
