@@ -129,6 +129,8 @@ coupling::ReducedFrame in_order_of(const Labels &labels, coupling::ReducedFrame 
   {
     output.on_q = Eigen::VectorXd(P.transpose() * output.on_q);
     output.on_v = Eigen::VectorXd(P.transpose() * output.on_v);
+    if (output.on_a.size() > 0)
+      output.on_a = Eigen::VectorXd(P.transpose() * output.on_a);
   }
   return frame;
 }
@@ -225,8 +227,9 @@ std::string row_text(const Eigen::VectorXd &row)
 std::string output_table(const fem::FrameOutput &output)
 {
   return "\n[frame." + output.name + "]\nstiffness_row = " + row_text(output.on_q) +
-         "\ndamping_row = " + row_text(output.on_v) + "\nacceleration_row = " + row_text(output.under_acceleration) +
-         "\n";
+         "\ndamping_row = " + row_text(output.on_v) +
+         (output.on_a.size() > 0 ? "\ninertia_row = " + row_text(output.on_a) : "") +
+         "\nacceleration_row = " + row_text(output.under_acceleration) + "\n";
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace gestell::apps
 {
@@ -20,6 +21,22 @@ void keep_columns(Eigen::MatrixXf &rows, Eigen::Index n, const Eigen::MatrixXd &
   rows = std::move(kept);
 }
 
+/// Whether (7a) of docs/theory/reduction.md balances the forces: only then all of them have a row on accelerations.
+bool is_balanced(const std::vector<fem::FrameOutput> &outputs)
+{
+  return std::none_of(outputs.begin(), outputs.end(),
+                      [](const fem::FrameOutput &output) { return output.unit != "Pa" && output.on_a.size() == 0; });
+}
+
+/// The modes after coordinate n answer inertia and damping statically: (7a) for the first n coordinates.
+void balance_without(fem::FrameOutput &output, const coupling::ReducedFrame &frame, Eigen::Index n)
+{
+  const Eigen::Index    left = frame.M.rows() - n;
+  const Eigen::VectorXd s    = output.on_q.tail(left).cwiseQuotient(frame.omega0.tail(left).cwiseAbs2());
+  output.on_a.head(n) -= frame.M.topRightCorner(n, left) * s;
+  output.on_v.head(n) -= frame.B.topRightCorner(n, left) * s; // B with ratios, whose forces act on masses
+}
+
 } // namespace
 
 coupling::ReducedFrame with_first_modes(coupling::ReducedFrame frame, int n_modes)
@@ -31,6 +48,10 @@ coupling::ReducedFrame with_first_modes(coupling::ReducedFrame frame, int n_mode
   // [left x 3] deflection of the truncated modes under a unit field
   const Eigen::MatrixXd statics =
       frame.omega0.tail(left).cwiseAbs2().cwiseInverse().asDiagonal() * frame.translations_load.bottomRows(left);
+  if (is_balanced(frame.outputs))
+    for (fem::FrameOutput &output : frame.outputs)
+      if (output.on_a.size() > 0)
+        balance_without(output, frame, n);
   for (Eigen::MatrixXd *A : {&frame.M, &frame.B, &frame.C})
     *A = A->topLeftCorner(n, n).eval();
   frame.translations_load = frame.translations_load.topRows(n).eval();

@@ -23,12 +23,21 @@ coupling::ReducedFrame frame_with_picture()
 {
   auto frame                        = test::chain_frame();
   frame.outputs[0].name             = "support.foot.z";
+  frame.outputs[0].on_v             = Eigen::Vector3d(1., -2. / 3., 3.);
+  frame.outputs[0].on_a             = Eigen::Vector3d(-1. / 7., 5., 0.1);
   frame.interfaces[0].position      = {0.1, 1. / 3., 2.};
   frame.interfaces[0].sign[fem::uz] = -1.;
   frame.points                      = {{0., 0., 0.}, {1., 0., 0.}, {0., 1. / 7., 0.}};
   frame.triangles                   = {{0, 1, 2}};
   frame.displacement                = Eigen::MatrixXf::Random(9, 3);
   return frame;
+}
+
+/// Force of an output at coordinates p, velocities v, accelerations a and gravity g.
+double force(const fem::FrameOutput &output, const Eigen::Vector3d &p, const Eigen::Vector3d &v,
+             const Eigen::Vector3d &a, const Eigen::Vector3d &g)
+{
+  return output.on_q.dot(p) + output.on_v.dot(v) + output.on_a.dot(a) + output.under_acceleration.dot(g);
 }
 
 using MatrixExport = ::testing::TestWithParam<const char *>;
@@ -57,6 +66,9 @@ TEST_P(MatrixExport, ComesBackAsTheSameFrame)
   ASSERT_EQ(back.outputs.size(), 1u);
   EXPECT_EQ(back.outputs[0].name, "support.foot.z");
   EXPECT_TRUE(same(back.outputs[0].on_q, frame.outputs[0].on_q));
+  EXPECT_TRUE(same(back.outputs[0].on_v, frame.outputs[0].on_v));
+  ASSERT_EQ(back.outputs[0].on_a.size(), 3);
+  EXPECT_TRUE(same(back.outputs[0].on_a, frame.outputs[0].on_a));
   EXPECT_TRUE(same(back.outputs[0].under_acceleration, frame.outputs[0].under_acceleration));
   // M M^-1 f with M of condition 1e2
   EXPECT_LT((back.translations_load - frame.translations_load).norm(), 1e-13 * frame.translations_load.norm());
@@ -96,9 +108,27 @@ TEST(MatrixExportOnCards, ComesBackToTenDigitsWithMotionsAlongTheAxes)
   EXPECT_EQ(back.interfaces[0].position, frame.interfaces[0].position);
   EXPECT_LT((back.outputs.at(0).on_q - sign.asDiagonal() * frame.outputs[0].on_q).norm(),
             1e-15 * frame.outputs[0].on_q.norm());
+  ASSERT_EQ(back.outputs[0].on_a.size(), 3);
+  const Eigen::Vector3d p(1e-4, 2e-4, -3e-4), v(0.1, -0.2, 0.3), a(4., 5., -6.), g(0., 0., -9.81);
+  const Eigen::Vector3d p_along = sign.asDiagonal() * p, v_along = sign.asDiagonal() * v,
+                        a_along = sign.asDiagonal() * a;
+  const double before           = force(frame.outputs[0], p, v, a, g);
+  EXPECT_NEAR(force(back.outputs[0], p_along, v_along, a_along, g), before, 1e-13 * std::abs(before));
   EXPECT_LT((back.translations_load - sign.asDiagonal() * frame.translations_load).norm(),
             1e-8 * frame.translations_load.norm());
   EXPECT_EQ(back.mass, frame.mass);
+}
+
+TEST(MatrixExportOfRows, WithoutInertiaHasNone)
+{
+  const test::SceneFolder folder;
+  auto                    frame = frame_with_picture();
+  frame.outputs[0].on_a.resize(0);
+  apps::export_frame(folder.path(""), frame, apps::matrix_format("matrix-market"), "a test");
+  const std::string text = text_of_file(folder.path("frame.toml"));
+  EXPECT_EQ(text.find("inertia_row"), std::string::npos);
+  const auto scene = apps::read_scene(folder.write("back.toml", text));
+  EXPECT_EQ(coupling::dense_frame(scene.frame.matrices).outputs.at(0).on_a.size(), 0);
 }
 
 TEST(DmigExport, OfAFrameWithoutDampingHasNoneAndComesBackWithoutAWarning)

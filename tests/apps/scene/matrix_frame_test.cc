@@ -76,7 +76,7 @@ TEST(MatrixFrame, HasNoMeshToCut)
 
 TEST(MatrixFrame, TakesRowsOfSectionsSupportsAndStressesByComponents)
 {
-  const std::string rows    = "stiffness_row = [1, 2, 3]\nacceleration_row = [0, 0, 4]\n";
+  const std::string rows    = "stiffness_row = [1, 2, 3]\ninertia_row = [5, 6, 7]\nacceleration_row = [0, 0, 4]\n";
   const auto        outputs = test::scene_of(chain + "[frame.cut.low]\n" + rows + "[frame.cut.low.M1]\n" + rows +
                                              "[frame.support.foot.z]\n" + rows + "[frame.stress.root.xz]\n" + rows)
                            .frame.matrices.outputs;
@@ -85,6 +85,7 @@ TEST(MatrixFrame, TakesRowsOfSectionsSupportsAndStressesByComponents)
   {
     found.push_back(output.name + " " + output.unit);
     EXPECT_EQ(output.on_q, Eigen::Vector3d(1., 2., 3.));
+    EXPECT_EQ(output.on_a, Eigen::Vector3d(5., 6., 7.));
     EXPECT_EQ(output.under_acceleration, Eigen::Vector3d(0., 0., 4.));
   }
   EXPECT_EQ(found, (std::vector<std::string>{"cut.low N", "cut.low.M1 N m", "support.foot.z N", "stress.root.xz Pa"}));

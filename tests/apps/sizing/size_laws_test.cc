@@ -5,6 +5,8 @@
 #include "coupling/plugin/frame_service_loader.h"
 #include "tests/support/test.h"
 
+#include <Eigen/Cholesky>
+
 namespace gestell::tests
 {
 namespace
@@ -132,7 +134,7 @@ TEST(FirstModes, AreTheReductionWithAsFew)
   options.n_modes                    = 12;
   const fem::FrameMatrices     frame = weighing_rod(30);
   const coupling::ReducedFrame many  = coupling::frame_service().reduce(frame, options, {});
-  for (const int n_modes : {0, 3, 12})
+  for (const int n_modes : {0, 3, 6, 12})
   {
     options.n_modes                     = n_modes;
     const coupling::ReducedFrame few    = coupling::frame_service().reduce(frame, options, {});
@@ -146,10 +148,45 @@ TEST(FirstModes, AreTheReductionWithAsFew)
     }
     const fem::FrameOutput &a = few.outputs.at(0), &b = firsts.outputs.at(0);
     EXPECT_LT((a.on_q.cwiseAbs() - b.on_q.cwiseAbs()).norm(), 1e-7 * a.on_q.norm());
+    ASSERT_EQ(a.on_a.size(), b.on_a.size());
+    EXPECT_GT(a.on_a.norm(), 0.);
+    EXPECT_LT((a.on_a.cwiseAbs() - b.on_a.cwiseAbs()).norm(), 1e-7 * a.on_a.norm());
+    EXPECT_GT(a.on_v.norm(), 0.);
+    EXPECT_LT((a.on_v.cwiseAbs() - b.on_v.cwiseAbs()).norm(), 1e-7 * a.on_v.norm());
     EXPECT_GT(a.under_acceleration.norm(), 0.);
     EXPECT_LT((a.under_acceleration - b.under_acceleration).norm(), 1e-7 * frame.M.sum());
   }
   EXPECT_THROW(with_first_modes(many, 13), std::invalid_argument);
+}
+
+/// The force at the root answers that at the tip, inertia and damping from outside, alpha M and ratios.
+TEST(FirstModes, BalanceForcesWithDampingRatios)
+{
+  coupling::ReductionOptions options;
+  options.n_modes          = 12;
+  fem::FrameMatrices frame = weighing_rod(30);
+  constexpr double   alpha = 2.;
+  frame.B                  = alpha * frame.M;
+  frame.B.makeCompressed();
+  frame.modal_damping_ratio        = 0.05;
+  const coupling::ReducedFrame all = coupling::frame_service().reduce(frame, options, {});
+  const Eigen::VectorXd        R   = all.M.ldlt().solve(all.translations_load.col(0));
+  for (const int n_modes : {0, 3, 12})
+  {
+    const coupling::ReducedFrame few = with_first_modes(all, n_modes);
+    const Eigen::Index           n   = few.M.rows();
+    const Eigen::VectorXd        p = 1e-3 * Eigen::VectorXd::Random(n), v = Eigen::VectorXd::Random(n);
+    const Eigen::VectorXd        f        = 100. * Eigen::VectorXd::Unit(n, 0);
+    const Eigen::VectorXd        a        = few.M.ldlt().solve(f - few.B * v - few.C * p);
+    const Eigen::VectorXd        momentum = few.translations_load.col(0);
+    const Eigen::VectorXd        damped   = alpha * momentum + ((all.B - alpha * all.M) * R).head(n);
+    const fem::FrameOutput      &row      = few.outputs.at(0);
+    const double                 terms = row.on_q.cwiseAbs().dot(p.cwiseAbs()) + row.on_v.cwiseAbs().dot(v.cwiseAbs()) +
+                         row.on_a.cwiseAbs().dot(a.cwiseAbs());
+    EXPECT_NEAR(row.on_q.dot(p) + row.on_v.dot(v) + row.on_a.dot(a), f[0] - momentum.dot(a) - damped.dot(v),
+                1e-7 * terms)
+        << n_modes << " modes";
+  }
 }
 
 } // namespace

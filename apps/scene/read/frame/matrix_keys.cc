@@ -109,10 +109,12 @@ const std::vector<Key> &matrix_interface_keys()
 const std::vector<Key> &matrix_output_keys()
 {
   static const std::vector<Key> keys = {
-      row_key("stiffness_row", kind::stiffness_entry,
-              "n numbers: the signal is stiffness_row q + damping_row q' + acceleration_row `gravity` in N. You choose "
-              "the signs: usually tension is positive in cuts, pressure in supports"),
+      row_key(
+          "stiffness_row", kind::stiffness_entry,
+          "n numbers: the signal is stiffness_row q + damping_row q' + inertia_row q'' + acceleration_row `gravity` "
+          "in N. You choose the signs: usually tension is positive in cuts, pressure in supports"),
       row_key("damping_row", kind::damping_entry, "n numbers").by_default("0"),
+      row_key("inertia_row", kind::mass_entry, "n numbers").by_default("0"),
       row_key("acceleration_row", kind::mass_entry, "three numbers").by_default("0")};
   return keys;
 }

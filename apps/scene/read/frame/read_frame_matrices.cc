@@ -188,7 +188,7 @@ std::vector<fem::Interface> read_matrix_interfaces(const SceneTable &frame, cons
   return interfaces;
 }
 
-/// A force read off the frame: stiffness_row . q + damping_row . q' + acceleration_row . g.
+/// A force read off the frame: stiffness_row . q + damping_row . q' + inertia_row . q'' + acceleration_row . g.
 fem::FrameOutput read_output(const SceneTable &table, const std::string &name, const std::string &unit, Eigen::Index n)
 {
   const auto row = [&](const std::string &key, const Kind &kind, Eigen::Index size, const std::string &needed)
@@ -205,6 +205,8 @@ fem::FrameOutput read_output(const SceneTable &table, const std::string &name, c
   output.on_q = row("stiffness_row", kind::stiffness_entry, n, coordinates);
   output.on_v =
       table.has("damping_row") ? row("damping_row", kind::damping_entry, n, coordinates) : Eigen::VectorXd::Zero(n);
+  if (table.has("inertia_row"))
+    output.on_a = row("inertia_row", kind::mass_entry, n, coordinates);
   if (table.has("acceleration_row"))
     output.under_acceleration = row("acceleration_row", kind::mass_entry, 3, "x, y, z take three");
   return output;
