@@ -61,7 +61,7 @@ struct FrameOutput
   /// [kg] direct share of a uniform acceleration field g, such as gravity: weight on a support without motion of q, and
   /// the static deflection outside the basis of a reduced frame.
   Eigen::Vector3d under_acceleration = Eigen::Vector3d::Zero();
-  Eigen::VectorXd on_a{};        ///< [n], or empty: none. Inertia that forces of supports, cuts and joints balance
+  Eigen::VectorXd on_a{};        ///< [n], or empty: none. For forces in joints, which include inertia next to them
   double          constant = 0.; ///< of the frame at q = 0, such as the prestress of a tie rod
 };
 
