@@ -110,6 +110,17 @@ TEST(LifeRun, ChangesReachTheBlocksThatInheritTheirKeys)
   EXPECT_NEAR(bar.number({"life", "damage"}), eleven, slow * eleven);
 }
 
+/// A block without [life] does not get one by a change of its keys.
+TEST(LifeRun, ChangesOfLifeLeaveBlocksWithoutLifeAlone)
+{
+  const Bar bar("life_plain");
+  bar.file("plain.toml", "extends = 'bar_life.toml'\nwithout = ['life']\n");
+  expect_answer(bar.life("[[life.block]]\nscene = 'plain.toml'\nrepetitions = 2\n", " --set life.repetitions=3"), 0,
+                {"Life of the frame"});
+  EXPECT_NEAR(bar.number({"life", "damage"}), 5. * damage, slow * 5. * damage);
+  expect_answer(bar.again(" --set life.repetitions=5"), 0, {"Life of the frame"});
+}
+
 /// All members of summary.json but times, as they are written.
 std::string life_members(const std::string &summary)
 {
@@ -263,6 +274,8 @@ TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
   refused("[[life.weld]]\nsurfaces = ['top']\ndirection = [1, 0, 0]\nstress = 'shear'\n"
           "curve = { class = 80, stress_relieved = true }\n",
           {"stress_relieved", "a shear stress does not have"});
+  refused("[[life.weld]]\nsurfaces = ['top']\ndirection = [0, 0, 1]\n", {"is normal to 'top'", "in this surface"});
+  refused("[[life.weld]]\nsurfaces = ['wall', 'top']\n", {"first surface", "name the other surface first"});
   expect_answer(bar.life("", " --life-by parameters.G"), 2, {"--life-by parameters.G"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nframe.material.E = '200 GPa'\n");
   refused("[[life.block]]\nscene = 'other.toml'\n", {"has a different frame", "material or dimensions differ"});
