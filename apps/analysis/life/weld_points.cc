@@ -191,6 +191,8 @@ std::vector<WeldPoint> area(const WeldRequest &weld, const std::vector<char> &on
   for (std::size_t i = 0; i < on.size(); ++i)
     if (const Vector3d &normal = skin.directions[i].normal; on[i] && stress.nearby[i] < 0)
     {
+      if (weld.direction && normal.isZero()) // an edge
+        continue;
       const auto direction = weld.direction ? in_surface(vector_of(*weld.direction), normal) : std::nullopt;
       is_normal            = is_normal || (weld.direction && !direction);
       if (!weld.direction || direction)
@@ -243,7 +245,7 @@ std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vect
     }
     if (direction.dot(here->inwards) < 0.)
       direction = -direction;
-    constexpr double corner = 0.1; // sine of 6 degrees: a chord of a curved surface is no corner
+    constexpr double corner = 0.1; // sine of 6 degrees: a chord of a curved surface is not a corner
     reentrant               = reentrant || here->normal.dot(there->inwards.normalized()) > corner;
     Weights weights{{int(i), 1.}};
     if (weld.thickness > 0.)
@@ -295,8 +297,6 @@ WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem:
     counts += (counts.empty() ? "'" : ", '") + name + "' has " +
               count_text(std::size_t(std::count(on.back().begin(), on.back().end(), 1)), "point");
   }
-  if (on.size() == 2)
-    require_valid_stresses(weld, on.front(), stress);
   std::string                  doubt;
   const std::vector<WeldPoint> chosen = on.size() == 1 ? area(weld, on[0], stress, skin) : line(weld, on, skin, doubt);
   if (chosen.empty())
@@ -306,6 +306,8 @@ WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem:
          : weld.thickness > 0. ? "name two surfaces that meet, the first of which extends " +
                                      short_text(1e3 * weld.distances.back() * weld.thickness) + " mm beyond the line"
                                : "name two surfaces that meet"));
+  if (on.size() == 2)
+    require_valid_stresses(weld, on.front(), stress);
   WeldPoints points = points_of(chosen, stress, skin);
   points.doubt      = std::move(doubt);
   return points;
