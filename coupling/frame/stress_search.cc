@@ -1,6 +1,6 @@
 #include "coupling/frame/stress_search.h"
 
-#include "coupling/integration/system/dense_solvers.h"
+#include "coupling/frame/principal_states.h"
 
 #include <algorithm>
 #include <cassert>
@@ -32,43 +32,6 @@ MatrixXd scaled_rows(const ReducedStress &stress, const std::vector<int> &points
   return A;
 }
 
-/// z = sum_r b_r c_r for every state: the b_r, and the largest |c_r| of each.
-struct Components
-{
-  MatrixXd basis;
-  VectorXd largest;
-};
-
-/// The largest of each coordinate over all states, 1 where it never moves: units drop out.
-VectorXd largest_of(const MatrixXd &states)
-{
-  return states.cwiseAbs().rowwise().maxCoeff().unaryExpr([](double z) { return z > 0. ? z : 1.; });
-}
-
-/// Principal components of the states in the norm of `gram`, followed by the directions that are rounding there, so
-/// that together they are a basis of all states.
-Components principal_components(const MatrixXd &gram, const MatrixXd &states)
-{
-  const SymmetricEigenSolver norm(gram);
-  const VectorXd             root   = norm.eigenvalues().cwiseMax(0.).cwiseSqrt();
-  const double               top    = root.size() > 0 ? root.maxCoeff() : 0.;
-  constexpr double           noise  = 1e-12; // of the largest eigenvalue: below it rounding hides it
-  Index                      hidden = 0;     // ascending
-  while (hidden < root.size() && root[hidden] <= std::sqrt(noise) * top)
-    ++hidden;
-  const Index                n      = root.size() - hidden;
-  const auto                 modes  = norm.eigenvectors();
-  const MatrixXd             X      = modes.rightCols(n);
-  const MatrixXd             whole  = root.tail(n).asDiagonal() * (X.transpose() * states); // |column|^2 = z^T S^T S z
-  const MatrixXd             nearby = modes.leftCols(hidden).transpose() * states;
-  const SymmetricEigenSolver principal(whole * whole.transpose());
-  const MatrixXd            &U = principal.eigenvectors();
-  Components                 result{MatrixXd(root.size(), root.size()), VectorXd(root.size())};
-  result.basis << X * root.tail(n).cwiseInverse().asDiagonal() * U, modes.leftCols(hidden);
-  result.largest << (U.transpose() * whole).cwiseAbs().rowwise().maxCoeff(), nearby.cwiseAbs().rowwise().maxCoeff();
-  return result;
-}
-
 template <typename Visit>
 void in_blocks(const std::vector<int> &points, const Visit &visit)
 {
@@ -84,27 +47,25 @@ void in_blocks(const std::vector<int> &points, const Visit &visit)
 /// Upper bounds of sigma_v over all states, [points].
 VectorXd bounds(const ReducedStress &stress, const std::vector<int> &points, const MatrixXd &states)
 {
-  const VectorXd scale = largest_of(states);
-  MatrixXd       gram  = MatrixXd::Zero(stress.mean.cols(), stress.mean.cols());
+  MatrixXd gram = MatrixXd::Zero(stress.mean.cols(), stress.mean.cols());
   in_blocks(points,
             [&](const std::vector<int> &some)
             {
-              const MatrixXd A = scaled_rows(stress, some) * scale.asDiagonal();
+              const MatrixXd A = scaled_rows(stress, some);
               gram.noalias() += A.transpose() * A;
               return true;
             });
-  const Components components = principal_components(gram, scale.cwiseInverse().asDiagonal() * states);
-  const MatrixXd   basis      = scale.asDiagonal() * components.basis;
-  VectorXd         bound      = VectorXd::Zero(stress.n_points());
+  const PrincipalStates principal = principal_states(states, gram);
+  const VectorXd        largest   = principal.components.cwiseAbs().colwise().maxCoeff().transpose();
+  VectorXd              bound     = VectorXd::Zero(stress.n_points());
   in_blocks(points,
             [&](const std::vector<int> &some)
             {
-              const MatrixXd B = scaled_rows(stress, some) * basis;
+              const MatrixXd B = scaled_rows(stress, some) * principal.basis;
               // of a bound, for numbers in single precision: some hundred times 6e-8
               constexpr double rounded = 1. + 1e-5;
               for (std::size_t i = 0; i < some.size(); ++i)
-                bound[some[i]] =
-                    rounded * B.middleRows<6>(6 * Index(i)).colwise().norm().dot(components.largest.transpose());
+                bound[some[i]] = rounded * B.middleRows<6>(6 * Index(i)).colwise().norm().dot(largest.transpose());
               return true;
             });
   return bound;

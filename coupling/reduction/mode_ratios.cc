@@ -381,8 +381,10 @@ VectorXd modal_dampers(const fem::ModalRatios &ratios, const VectorXd &omega, co
     const double zeta = one.ratio->ratio, missing = 0.5 * d[one.mode] / omega[one.mode];
     if (!(missing >= -rounding))
       refuse(*one.ratio, "mode " + std::to_string(one.number) + " of the frame, " + rounded(omega[one.mode] / two_pi) +
-                             " Hz, has a ratio of " + percent(zeta) + ", but the dampers of the frame alone give it " +
-                             percent(zeta - missing) + "; give at least this, or weaken the dampers of foundations");
+                             " Hz, has a ratio of " + percent(zeta) +
+                             ", but the dampers of the frame alone give it "
+                             "about " +
+                             percent(zeta - missing) + "; give a larger ratio, or weaken the dampers of foundations");
     d[one.mode] = std::max(d[one.mode], 0.);
   }
   return d;

@@ -166,8 +166,9 @@ public:
     between
   };
 
-  MotionsAbove(const QuadraticMesh &mesh, const MultipointConstraints &constraints, const Plane &plane,
-               const std::vector<double> &height, const Eigen::Matrix3d &axes, const Vector3d &about)
+  MotionsAbove(const QuadraticMesh &mesh, const MultipointConstraints &constraints, const std::vector<int> &supported,
+               const Plane &plane, const std::vector<double> &height, const Eigen::Matrix3d &axes,
+               const Vector3d &about)
       : mesh_(mesh), constraints_(constraints), about_(about), side_(3 * std::size_t(mesh.n_nodes()), above)
   {
     axes_ << axes, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), axes;
@@ -177,6 +178,8 @@ public:
           std::fill_n(side_.begin() + 3 * mesh.nodes(cell)[a], 3, below);
     for (const int i : loaded(constraints))
       side_[i] = plane.height(vector_of(mesh.points[i / 3])) > 0. ? above : below;
+    for (const int node : supported)
+      std::fill_n(side_.begin() + 3 * node, 3, plane.height(vector_of(mesh.points[node])) > 0. ? above : below);
     std::vector<int> tied(constraints.ties.size(), -1); // in the order in which they depend on each other
     for (std::size_t i = 0; i < side_.size(); ++i)
       if (tie_of(int(i)))
@@ -295,12 +298,12 @@ Motions weight_between(const Plane &plane, const MotionsAbove &motions, const Qu
 
 std::vector<FrameOutput> cut_forces(const CutSpecification &cut, const QuadraticMesh &mesh,
                                     const CellMaterials &materials, const AffineConstraints &affine,
-                                    double rayleigh_stiffness)
+                                    const std::vector<int> &supported, double rayleigh_stiffness)
 {
   const Plane               plane  = plane_of(cut);
   const Eigen::Matrix3d     axes   = axes_of(cut, plane.normal);
   const std::vector<double> height = heights(plane, mesh);
-  const MotionsAbove        motions(mesh, affine.constraints(), plane, height, axes,
+  const MotionsAbove        motions(mesh, affine.constraints(), supported, plane, height, axes,
                              cut.about ? vector_of(*cut.about) : centroid(plane, mesh));
 
   bool                                divides = false;

@@ -20,7 +20,7 @@ namespace gestell::fem
  *
  *     F = sum_i v_i . (C u)_i,    v_i = w(x_i) at nodes of cells above only, 0 at the others,
  *
- * but at nodes of clamped supports and of interfaces v = w above the plane.
+ * but at nodes of supports and of interfaces v = w above the plane.
  *
  * Above are the cells with the centroid on the side of n.  w has no energy in them, so F is the sum of w . f over the
  * loads f on the nodes above: exact equilibrium for any mesh and plane.  Nodes of tied faces follow the nodes they are
@@ -30,11 +30,12 @@ namespace gestell::fem
  * force in cells.  A rigid interface or a support that reaches to both sides carries force that is not included.
  * About a prestressed state moments also contain the stresses above times their displacement relative to the section.
  *
+ * @param supported           nodes of foundations.
  * @param rayleigh_stiffness  beta [s] of all cells.
  * @throws std::invalid_argument for a zero normal, a first direction along it and a plane that does not cut the frame.
  */
 std::vector<FrameOutput> cut_forces(const CutSpecification &cut, const QuadraticMesh &mesh,
                                     const CellMaterials &materials, const AffineConstraints &affine,
-                                    double rayleigh_stiffness);
+                                    const std::vector<int> &supported, double rayleigh_stiffness);
 
 } // namespace gestell::fem

@@ -238,8 +238,12 @@ Discretisation discretise(const Mesh &mesh, const FrameSpecification &specificat
     frame.notes.push_back(std::move(note));
   for (std::string &note : rayleigh_at_large(specification))
     frame.notes.push_back(std::move(note));
+  std::vector<int> supported;
+  for (const SupportedPatch &one : supports)
+    supported.insert(supported.end(), one.patch.nodes.begin(), one.patch.nodes.end());
   for (const CutSpecification &cut : specification.cuts)
-    for (FrameOutput &output : cut_forces(cut, quadratic, materials, affine, specification.rayleigh_stiffness))
+    for (FrameOutput &output :
+         cut_forces(cut, quadratic, materials, affine, supported, specification.rayleigh_stiffness))
       frame.outputs.push_back(std::move(output));
 
   Eigen::VectorXd load;

@@ -41,7 +41,7 @@ struct NotchedPlate
         }
       }
     states.resize(n, samples);
-    for (int j = 0; j < n; ++j) // blows that ring, over a static stress
+    for (int j = 0; j < n; ++j) // impacts that ring, over a static stress
       for (int k = 0; k < samples; ++k)
       {
         const double t = double(k % (samples / 2)) / samples;

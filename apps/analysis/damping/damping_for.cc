@@ -182,7 +182,8 @@ public:
       if (above < 0.)
         throw std::invalid_argument(
             wanted_text() + ": even a ratio of " + short_text(largest) + " gives only " + percent(wanted + above) +
-            ", because the frame contributes too little to this mode; add dampers that act on it");
+            ", because the frame contributes too little to this mode, or has a ratio of its own there "
+            "(frame.damping.modes); add dampers that act on it, or remove this ratio");
       found.frame_ratio = root_of(excess, 0., found.without - wanted, high, above, given_back);
     }
     result.answers.push_back(as_answer(std::move(found)));

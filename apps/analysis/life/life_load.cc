@@ -79,7 +79,15 @@ const SceneNode *node_at(const SceneNode &root, const std::string &key)
   return node;
 }
 
-/// Sets the changes of the own scene whose keys the block inherits from the same line, or that neither file has.
+/// Whether both scenes have the table of a key.
+bool both_have_table(const SceneNode &a, const SceneNode &b, const std::string &key)
+{
+  const auto end = key.rfind('.');
+  return end == std::string::npos || (node_at(a, key.substr(0, end)) && node_at(b, key.substr(0, end)));
+}
+
+/// Sets the changes of the own scene whose keys the block inherits from the same line, or that neither file has in the
+/// same table.
 void apply_changes_of(const Variant &own, Variant &block)
 {
   if (own.changes.empty())
@@ -91,7 +99,7 @@ void apply_changes_of(const Variant &own, Variant &block)
   {
     const std::string key  = parsed_override(change).first;
     const SceneNode  *here = node_at(file, key), *there = node_at(other, key);
-    if (here && there ? here->place.text() == there->place.text() : here == there)
+    if (here && there ? here->place.text() == there->place.text() : here == there && both_have_table(file, other, key))
       block.set(change);
   }
 }

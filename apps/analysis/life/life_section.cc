@@ -81,7 +81,7 @@ HtmlTable places_table(const LifeResult &found)
                     "#cycles", "#elements disagree", "#factor on life"});
   const auto add = [&](const LifePlace &x)
   {
-    table.add({x.nearby.empty() ? x.of : "beside " + x.nearby, position_words(x),
+    table.add({x.nearby.empty() ? x.of : (x.of == "skin" ? "" : x.of + " ") + "beside " + x.nearby, position_words(x),
                peak(short_text(x.damage, 3), &x == found.worst()), life_words(x.strokes), life_words(x.hours),
                short_text(x.range / mega), short_text(x.mean / mega), short_text(x.cycles), percent(x.disagreement, 2),
                factor_words(x.error.total())});

@@ -126,11 +126,14 @@ KeptLife kept_life(const fs::path &folder, const std::vector<std::string> &chang
   if (!in)
     throw std::invalid_argument(folder.string() + " contains no " + life_states_file +
                                 ", the states of a run with [life]; add [life] to its scene and run it again");
-  for (std::string line; std::getline(in, line) && line.find(" state") != 64;)
+  bool has_state = false;
+  for (std::string line; !has_state && std::getline(in, line); has_state = line.find(" state") == 64)
     if (line.rfind(scene_line, 0) == 0)
       kept.scene = line.substr(scene_line.size());
     else if (line.rfind(change_line, 0) == 0)
       kept.changes.push_back(line.substr(change_line.size()));
+  if (!has_state)
+    refuse(kept.file.string() + " is damaged");
   if (!fs::exists(kept.scene))
     refuse(kept.file.string() + ": its scene " + kept.scene + " does not exist");
   Variant scene = Variant::of_file(kept.scene, kept.changes);

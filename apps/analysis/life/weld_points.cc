@@ -164,6 +164,20 @@ WeldPoints points_of(const std::vector<WeldPoint> &chosen, const coupling::Reduc
   return found;
 }
 
+/// The direction in the surface; none if it is normal to it.
+std::optional<Vector3d> in_surface(const Vector3d &direction, const Vector3d &normal)
+{
+  constexpr double least = 0.1; // sine of 6 degrees: what remains of a direction that is meant to be the normal
+  const Vector3d   rest  = direction.normalized() - normal.dot(direction.normalized()) * normal;
+  return rest.norm() > least ? std::optional<Vector3d>(rest.normalized()) : std::nullopt;
+}
+
+[[noreturn]] void refuse_normal_direction(const WeldRequest &weld)
+{
+  throw std::invalid_argument(weld.place + ": the 'direction' of the weld '" + weld.name + "' is normal to '" +
+                              weld.surfaces.front() + "'; give one in this surface, or leave it out");
+}
+
 SurfaceDirections across(const Vector3d &normal, const Vector3d &direction)
 {
   return {normal, normal.cross(direction).normalized()};
@@ -173,14 +187,19 @@ std::vector<WeldPoint> area(const WeldRequest &weld, const std::vector<char> &on
                             const LifeSkin &skin)
 {
   std::vector<WeldPoint> chosen;
+  bool                   is_normal = false;
   for (std::size_t i = 0; i < on.size(); ++i)
     if (const Vector3d &normal = skin.directions[i].normal; on[i] && stress.nearby[i] < 0)
     {
-      if (weld.direction && normal.cross(vector_of(*weld.direction)).norm() == 0.)
+      if (weld.direction && normal.isZero()) // an edge
         continue;
-      chosen.push_back(
-          {{{int(i), 1.}}, int(i), weld.direction ? across(normal, vector_of(*weld.direction)) : skin.directions[i]});
+      const auto direction = weld.direction ? in_surface(vector_of(*weld.direction), normal) : std::nullopt;
+      is_normal            = is_normal || (weld.direction && !direction);
+      if (!weld.direction || direction)
+        chosen.push_back({{{int(i), 1.}}, int(i), direction ? across(normal, *direction) : skin.directions[i]});
     }
+  if (chosen.empty() && is_normal)
+    refuse_normal_direction(weld);
   return chosen;
 }
 
@@ -218,10 +237,15 @@ std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vect
       continue;
     Vector3d direction = here->normal.cross(there->normal).cross(here->normal).normalized();
     if (weld.direction)
-      direction = vector_of(*weld.direction);
+    {
+      const auto given = in_surface(vector_of(*weld.direction), here->normal);
+      if (!given)
+        refuse_normal_direction(weld);
+      direction = *given;
+    }
     if (direction.dot(here->inwards) < 0.)
       direction = -direction;
-    constexpr double corner = 0.1; // sine of 6 degrees: a chord of a curved surface is no corner
+    constexpr double corner = 0.1; // sine of 6 degrees: a chord of a curved surface is not a corner
     reentrant               = reentrant || here->normal.dot(there->inwards.normalized()) > corner;
     Weights weights{{int(i), 1.}};
     if (weld.thickness > 0.)
@@ -247,6 +271,19 @@ std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vect
   return chosen;
 }
 
+/// At least one point of the first surface is not next to a rigid one.
+void require_valid_stresses(const WeldRequest &weld, const std::vector<char> &on, const coupling::ReducedStress &stress)
+{
+  int nearby = -1;
+  for (std::size_t i = 0; i < on.size(); ++i)
+    if (on[i] && (nearby = stress.nearby[i]) < 0)
+      return;
+  if (nearby >= 0)
+    throw std::invalid_argument(weld.place + ": all points of '" + weld.surfaces.front() + "', the first surface of " +
+                                "the weld '" + weld.name + "', are at " + stress.rigid[std::size_t(nearby)] +
+                                ", a rigid surface without valid stresses; name the other surface first");
+}
+
 } // namespace
 
 WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem::SurfaceSelector> &surfaces,
@@ -269,6 +306,8 @@ WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem:
          : weld.thickness > 0. ? "name two surfaces that meet, the first of which extends " +
                                      short_text(1e3 * weld.distances.back() * weld.thickness) + " mm beyond the line"
                                : "name two surfaces that meet"));
+  if (on.size() == 2)
+    require_valid_stresses(weld, on.front(), stress);
   WeldPoints points = points_of(chosen, stress, skin);
   points.doubt      = std::move(doubt);
   return points;

@@ -63,7 +63,14 @@ public:
   std::string summary() const { return read(folder_.results() / "summary.json"); }
   std::string results() const { return folder_.results().string(); }
   bool        wrote(const std::string &file) const { return std::filesystem::exists(folder_.results() / file); }
-  void        file(const std::string &name, const std::string &text) const { folder_.file(name, text); }
+  /// The scene that all extend, without its table [life].
+  std::string scene_without_life() const
+  {
+    const std::string text  = read(scenes / "bar_life.toml");
+    const std::size_t begin = text.find("[life]"), end = text.find("[output]");
+    return text.substr(0, begin) + text.substr(end);
+  }
+  void file(const std::string &name, const std::string &text) const { folder_.file(name, text); }
 
 private:
   const std::filesystem::path scenes = GESTELL_SOURCE_DIR "/apps/verification/scenes";
@@ -108,6 +115,17 @@ TEST(LifeRun, ChangesReachTheBlocksThatInheritTheirKeys)
                 0, {"Life of the frame"});
   const double eleven = 11. * std::pow(1.5, 3) * damage;
   EXPECT_NEAR(bar.number({"life", "damage"}), eleven, slow * eleven);
+}
+
+/// A block without [life] does not get one by a change of its keys.
+TEST(LifeRun, ChangesOfLifeLeaveBlocksWithoutLifeAlone)
+{
+  const Bar bar("life_plain");
+  bar.file("plain.toml", bar.scene_without_life());
+  expect_answer(bar.life("[[life.block]]\nscene = 'plain.toml'\nrepetitions = 2\n", " --set life.repetitions=3"), 0,
+                {"Life of the frame"});
+  EXPECT_NEAR(bar.number({"life", "damage"}), 5. * damage, slow * 5. * damage);
+  expect_answer(bar.again(" --set life.repetitions=5"), 0, {"Life of the frame"});
 }
 
 /// All members of summary.json but times, as they are written.
@@ -263,6 +281,8 @@ TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
   refused("[[life.weld]]\nsurfaces = ['top']\ndirection = [1, 0, 0]\nstress = 'shear'\n"
           "curve = { class = 80, stress_relieved = true }\n",
           {"stress_relieved", "a shear stress does not have"});
+  refused("[[life.weld]]\nsurfaces = ['top']\ndirection = [0, 0, 1]\n", {"is normal to 'top'", "in this surface"});
+  refused("[[life.weld]]\nsurfaces = ['wall', 'top']\n", {"first surface", "name the other surface first"});
   expect_answer(bar.life("", " --life-by parameters.G"), 2, {"--life-by parameters.G"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nframe.material.E = '200 GPa'\n");
   refused("[[life.block]]\nscene = 'other.toml'\n", {"has a different frame", "material or dimensions differ"});

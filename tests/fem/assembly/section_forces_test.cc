@@ -98,19 +98,20 @@ Vector3d moment_of_mass_beyond(double s, double a, double b)
   return rho * Vector3d(0.5 * (A * l * l - a * a * Iy - b * b * Iz), a * Iy, b * Iz);
 }
 
-TEST(SectionForces, OfACantileverAreThoseOfHandStaticsThroughAnyPlaneOfAnyMesh)
+void expect_hand_statics_of_a_cantilever(const fem::Support &wall)
 {
   const Vector3d F(3e3, -2e3, 4e3), M(500., 800., -600.), tip(length, 0.5 * width, 0.5 * height);
   for (const auto &[kind, mesh, plane_faces] : bars())
   {
     const Vector3d g             = plane_faces ? Vector3d(1., -2., -9.81) : Vector3d(0., 0., 0.);
     auto           specification = cantilever();
+    specification.supports       = {wall};
     struct Plane
     {
       double s, a, b;
     };
     const std::vector<Plane> planes = {{0.53, 0., 0.},   {0.75, 0., 0.}, {0.66, 0.5, -0.4}, {0.8, 0.2, -0.3},
-                                       {1.1, -0.4, 0.1}, {0.05, 0., 0.}, {1.45, 0., 0.1}};
+                                       {1.1, -0.4, 0.1}, {0.05, 0., 0.}, {1.45, 0., 0.1},   {0.001, 0., 0.}};
     for (std::size_t i = 0; i < planes.size(); ++i)
       specification.cuts.push_back(
           cut_at(std::to_string(i), {planes[i].s, 0.5 * width, 0.5 * height}, {1., planes[i].a, planes[i].b}));
@@ -135,6 +136,17 @@ TEST(SectionForces, OfACantileverAreThoseOfHandStaticsThroughAnyPlaneOfAnyMesh)
                    kind + ", plane " + std::to_string(i));
     }
   }
+}
+
+TEST(SectionForces, OfACantileverAreThoseOfHandStaticsThroughAnyPlaneOfAnyMesh)
+{
+  expect_hand_statics_of_a_cantilever(clamped("wall", {"x0"}));
+}
+
+/// A foundation acts on its side of the plane, however close.
+TEST(SectionForces, OfACantileverOnAFoundationAreThoseOfHandStatics)
+{
+  expect_hand_statics_of_a_cantilever(foundation("wall", {"x0"}, {{2e9, 3e9, 4e9}}));
 }
 
 TEST(SectionForces, TurnWithTheFrame)

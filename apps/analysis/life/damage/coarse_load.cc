@@ -1,7 +1,5 @@
 #include "apps/analysis/life/damage/coarse_load.h"
 
-#include "coupling/integration/system/dense_solvers.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -12,37 +10,6 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-PrincipalStates principal_states(const MatrixXd &states, const MatrixXd &gram)
-{
-  // rounding of the norm is hidden by the scale of the coordinates, and added direction by direction, as in
-  // coupling::largest_von_mises
-  PrincipalStates result;
-  result.mean            = 0.5 * (states.rowwise().maxCoeff() + states.rowwise().minCoeff());
-  const MatrixXd centred = states.colwise() - result.mean;
-  const VectorXd scale   = centred.cwiseAbs().rowwise().maxCoeff().unaryExpr([](double z) { return z > 0. ? z : 1.; });
-  const VectorXd inverse = scale.cwiseInverse();
-  const coupling::SymmetricEigenSolver norm(scale.asDiagonal() * gram * scale.asDiagonal());
-  const VectorXd                       root   = norm.eigenvalues().cwiseMax(0.).cwiseSqrt();
-  constexpr double                     noise  = 1e-6; // of the largest root, whose square is rounding of the norm
-  Index                                hidden = 0;    // ascending
-  while (hidden < root.size() && root[hidden] <= noise * root[root.size() - 1])
-    ++hidden;
-  const Index    n       = root.size() - hidden;
-  const MatrixXd vectors = norm.eigenvectors();
-  const MatrixXd whitened =
-      root.tail(n).asDiagonal() * vectors.rightCols(n).transpose() * inverse.asDiagonal(); // times z: |c|
-  const coupling::SymmetricEigenSolver principal(whitened * (centred * centred.transpose()) * whitened.transpose());
-  const MatrixXd                       U = principal.eigenvectors().rowwise().reverse();
-  MatrixXd                             to_components(root.size(), root.size());
-  to_components << whitened.transpose() * U, inverse.asDiagonal() * vectors.leftCols(hidden);
-  result.basis.resize(root.size(), root.size());
-  result.basis << vectors.rightCols(n) * root.tail(n).cwiseInverse().asDiagonal() * U, vectors.leftCols(hidden);
-  result.basis      = scale.asDiagonal() * result.basis;
-  result.components = centred.transpose() * to_components;
-  result.measured   = n;
-  return result;
-}
 
 namespace
 {
@@ -100,7 +67,7 @@ std::vector<std::int64_t> divided(const Eigen::Ref<const MatrixXd> &c, std::vect
 
 } // namespace
 
-CoarseLoad coarse_load(const PrincipalStates &states, const LoadSequence &load, double tolerance,
+CoarseLoad coarse_load(const coupling::PrincipalStates &states, const LoadSequence &load, double tolerance,
                        const CoarseLoad *coarser)
 {
   const MatrixXd &c = states.components;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/analysis/life/damage/cycles.h"
+#include "coupling/frame/principal_states.h"
 
 #include <Eigen/Core>
 
@@ -9,22 +10,6 @@
 
 namespace gestell::apps
 {
-
-/**
- * States of a load in principal components, z(t) = mean + sum_r b_r c_r(t), in descending order of size, in the norm
- * |c|^2 = sum_i |S_i (z - mean)|^2 over the points of a frame.
- */
-struct PrincipalStates
-{
-  Eigen::MatrixXd basis;        ///< b_r [n x n]
-  Eigen::VectorXd mean;         ///< [n]
-  Eigen::MatrixXd components;   ///< c_r [samples x n]
-  Eigen::Index    measured = 0; ///< number of the first ones; the norm of the others is rounding
-};
-
-/// @param states  [n x samples]
-/// @param gram    [n x n] sum of S_i^T S_i
-PrincipalStates principal_states(const Eigen::MatrixXd &states, const Eigen::MatrixXd &gram);
 
 /// The largest components of a load at some of its samples, lines between them, and what is left out.
 struct CoarseLoad
@@ -42,7 +27,7 @@ struct CoarseLoad
  * @param tolerance  of the distance, relative to max |c|
  * @param coarser    null, or a load some of whose lines are divided further
  */
-CoarseLoad coarse_load(const PrincipalStates &states, const LoadSequence &load, double tolerance,
+CoarseLoad coarse_load(const coupling::PrincipalStates &states, const LoadSequence &load, double tolerance,
                        const CoarseLoad *coarser = nullptr);
 
 } // namespace gestell::apps

@@ -44,7 +44,9 @@ double error_of(const Eigen::Ref<const VectorXd> &norms, const CoarseLoad &load,
 } // namespace
 
 PointBounds::PointBounds(const PointStresses &stresses, const std::vector<int> &points)
-    : stresses_(stresses), states_(principal_states(stresses.states(), stress_gram(stresses, points)))
+    : stresses_(stresses),
+      mean_(0.5 * (stresses.states().rowwise().maxCoeff() + stresses.states().rowwise().minCoeff())),
+      states_(coupling::principal_states(stresses.states().colwise() - mean_, stress_gram(stresses, points)))
 {
   for (const LoadBlock &block : stresses.load().blocks)
     most_cycles_ += 0.5 * block.repetitions * double(block.end - block.first);
@@ -117,7 +119,7 @@ VectorXd PointBounds::of_rows(const MatrixXd &rows, int level)
     return bound;
   const CoarseLoad &load   = loads_[std::size_t(level)];
   MatrixXd          parts  = rows * states_.basis;
-  VectorXd          offset = rows * states_.mean;
+  VectorXd          offset = rows * mean_;
   if (is_signed)
     for (Index i = 0; i < rows.rows(); i += 6)
     {

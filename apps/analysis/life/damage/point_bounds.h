@@ -27,13 +27,14 @@ private:
   double of_signed(Eigen::Index i, const Eigen::VectorXd &norms, const Eigen::VectorXd &traces, const CoarseLoad &load);
   double of_cycles(double error, double variation, double largest, const std::vector<Cycle> &more = {});
 
-  const PointStresses    &stresses_;
-  PrincipalStates         states_; ///< without components
-  std::vector<CoarseLoad> loads_;
-  double                  most_cycles_ = 0.; ///< half of the samples of one repetition of the load
-  Eigen::MatrixXd         histories_;        ///< [chosen x rows], their memory is used again
-  SignedPath              path_;
-  std::vector<Cycle>      cycles_;
+  const PointStresses      &stresses_;
+  Eigen::VectorXd           mean_;   ///< of largest and smallest states [n]
+  coupling::PrincipalStates states_; ///< about it, without components
+  std::vector<CoarseLoad>   loads_;
+  double                    most_cycles_ = 0.; ///< half of the samples of one repetition of the load
+  Eigen::MatrixXd           histories_;        ///< [chosen x rows], their memory is used again
+  SignedPath                path_;
+  std::vector<Cycle>        cycles_;
 };
 
 } // namespace gestell::apps

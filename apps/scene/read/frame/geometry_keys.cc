@@ -128,7 +128,8 @@ const std::vector<Key> &frame_keys()
       key::table(
           "prestress", prestress_keys(),
           "static loads whose stresses stiffen or soften the frame (geometric stiffness), `{ gravity = true }`: in "
-          "modes, runs and steady states. A line of the run gives the buckling factor; a factor of 1 or less is "
+          "modes, runs and steady states. `gestell modes`, the report and `summary.json` give the buckling factor; a "
+          "factor of 1 or less is "
           "an error. Displacements count from the frame under `loads`; its weight also acts as a load of the run")
           .by_default("none"),
       key::plain("parts", Key::Form::whole,

@@ -108,7 +108,7 @@ std::vector<DamageRule> rules()
            Miner::elementary}};
 }
 
-/// Bending of a cantilever after a blow and under a static load, with shear: the smooth stresses of a reduced frame.
+/// Bending of a cantilever after an impact and under a static load, with shear: the smooth stresses of a reduced frame.
 NotchedPlate cantilever(int samples)
 {
   NotchedPlate     beam(300, samples, 4);
