@@ -131,7 +131,7 @@ std::string keys_beside(const DeclaredTable &table, const std::string &topic)
 {
   std::string text;
   for (const ToldKey &told : told_keys())
-    if (told.path != table.path && ends_in(told.path, topic))
+    if (told.path != table.path && told.path != "scene." + table.path && ends_in(told.path, topic))
       text += padded(told.path) + plain(told.key->meaning) + "\n";
   return text.empty() ? "" : "\nKeys of this name; gestell help KEY describes them.\n\n" + text;
 }
@@ -176,8 +176,12 @@ std::invalid_argument unknown(const std::string &topic)
   }
   for (const ToldKey &told : told_keys())
   {
-    names.insert(told.key->name);
-    names.insert(told.path);
+    std::size_t begin = 0;
+    do
+    {
+      names.insert(told.path.substr(begin));
+      begin = told.path.find('.', begin) + 1;
+    } while (begin > 0);
   }
   for (const Synonym &synonym : synonyms())
     names.insert(synonym.word);

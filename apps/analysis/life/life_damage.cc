@@ -195,7 +195,7 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
   const int skin_point = group.skin_point(at.point);
   if (largest)
   {
-    place.range        = largest->range;
+    place.range        = place.cycles > 0. ? largest->range : 0.;
     place.mean         = largest->mean;
     place.disagreement = coupling::disagreement(frame.stress, load.states.col(largest->end), skin_point);
   }

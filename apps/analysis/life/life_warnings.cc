@@ -73,8 +73,9 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
                        "run; a life needs a load that rises and falls");
   add_unresolved(found, warnings);
   add_beyond_strength(found, warnings);
+  constexpr double rounding = 1e-4; // of a damage: that of stresses in single precision times the slope
   if (found.beside_rigid &&
-      found.beside_rigid->damage > (worst->damage > 0. ? worst->error.total() * worst->damage : 0.))
+      found.beside_rigid->damage > (worst->damage > 0. ? (1. + rounding) * worst->error.total() * worst->damage : 0.))
     warnings.push_back("life: the damage at " + position_of(*found.beside_rigid) + ", next to " +
                        found.beside_rigid->nearby + ", is larger, " + short_text(found.beside_rigid->damage, 3) +
                        ", but the stress at the edge of a rigid surface is singular, so no mesh resolves it; use "

@@ -374,7 +374,7 @@ TEST(Help, KnowsEveryKey)
     if (!table.path.empty())
       expect_known(table.path, table.keys);
   EXPECT_NE(help_text("prestress.loads").find("frame.prestress\n  loads"), std::string::npos);
-  EXPECT_EQ(help_text("damping.modes"), help_text("frame.damping.modes"));
+  EXPECT_NE(help_text("damping.modes").find(help_text("frame.damping.modes")), std::string::npos);
   for (const char *path : {"frame.damping.ratio", "life.weld.curve.class", "curve.class"})
     EXPECT_NE(help_text(path), "");
   const std::string modes = help_text("modes");
