@@ -27,12 +27,12 @@ TEST(Messages, AboutATableNameTheOptionsThatChangedIt)
 {
   const auto said = [](const std::vector<std::string> &options)
   { return complaint(test::cad_scene("ratio = 0.02", "ratio = 0.02, modes = [{ mode = 2, ratio = 0.01 }]"), options); };
-  EXPECT_EQ(said({"run.end=2"}), "");
-  const std::string clamped = said({"run.end=2", "frame.support.feet.clamped=true"});
+  EXPECT_EQ(said({"name=other"}), "");
+  const std::string clamped = said({"name=other", "frame.support.feet.clamped=true"});
   EXPECT_NE(clamped.find("frame.support.feet: with --set frame.support.feet.clamped=true: "), std::string::npos)
       << clamped;
-  EXPECT_EQ(clamped.find("run.end"), std::string::npos) << clamped;
-  EXPECT_EQ(complaint(test::cad_scene("foundation =", "clamped = true\nfoundation ="), {"run.end=2"}).find("--set"),
+  EXPECT_EQ(clamped.find("name=other"), std::string::npos) << clamped;
+  EXPECT_EQ(complaint(test::cad_scene("foundation =", "clamped = true\nfoundation ="), {"name=other"}).find("--set"),
             std::string::npos);
 }
 
