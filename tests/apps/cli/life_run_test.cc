@@ -300,7 +300,7 @@ TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
   bar.file("other.toml", "extends = 'bar_life.toml'\nrun.end = -1\n");
   refused("[[life.block]]\nscene = 'other.toml'\n", {"own.toml:2: life.block[1]: ", "other.toml:2: run.end"});
   bar.file("other.toml", "extends = 'bar_life.toml'\noutput.from = '5 s'\n");
-  refused("[[life.block]]\nscene = 'other.toml'\n", {"own.toml:2: life.block[1]: ", "output.from is 5 s"});
+  refused("[[life.block]]\nscene = 'other.toml'\n", {"own.toml:2: life.block[1]: ", "other.toml:2: output.from: is 5 s"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nframe.material.E = '200 GPa'\n");
   refused("[[life.block]]\nscene = 'other.toml'\n", {"has a different frame", "material or dimensions differ"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nreduction.modes = 4\n");
