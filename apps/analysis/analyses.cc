@@ -92,7 +92,6 @@ std::string needs_trajectory(const Analyses &analyses, const Scene &scene)
 
 Result computed(const AnalysisEntry &entry, Analysis &analysis, Session &session, AnalysisOutcome &outcome)
 {
-  analysis.check(session);
   const auto add = [&](Result &result) { outcome = analysis.compute(session, result); };
   if (entry.of != "run" || !analysis.computes_run())
     return session.answered(entry.name, add);

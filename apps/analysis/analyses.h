@@ -13,8 +13,8 @@ const std::vector<AnalysisEntry> &analyses();
 /// @throws std::invalid_argument with the most similar name
 const AnalysisEntry &analysis_named(const std::string &name);
 
-/// Result of an analysis of the session's scene, or of its run if the analysis adds to runs.  If such a run fails or is
-/// interrupted, so does the analysis.
+/// Result of an analysis, after its check(), of the session's scene, or of its run if the analysis adds to runs.  If
+/// such a run fails or is interrupted, so does the analysis.
 Result computed(const AnalysisEntry &entry, Analysis &analysis, Session &session, AnalysisOutcome &outcome);
 
 /// Values by option names, as typed: {"--sensitivities", {"all"}}.

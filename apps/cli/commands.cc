@@ -55,6 +55,7 @@ int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, CommonOptio
                        {saves ? nothing_to_save_before(entry.motions, progress.callback()) : progress.callback(),
                    saves ? &interruption() : nullptr});
   session.check();
+  analysis.check(session);
   const std::filesystem::path folder = results_path(options, session.scene());
   const ResultsLock           held(folder);
   const auto                  inputs = inputs_of(options, analysis.reads());

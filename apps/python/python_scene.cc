@@ -357,7 +357,8 @@ std::shared_ptr<PythonResult> PythonScene::analyse(const std::string &name, cons
       [&, self = *this](const apps::Watch &watch)
       {
         auto session = self.session(self.scene(), watch);
-        auto answer  = apps::computed(entry, *analysis, *session, outcome);
+        analysis->check(*session);
+        auto answer = apps::computed(entry, *analysis, *session, outcome);
         return std::make_shared<PythonResult>(std::move(session), std::move(answer));
       },
       std::move(progress));

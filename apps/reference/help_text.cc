@@ -77,14 +77,63 @@ std::string last_part(const std::string &path)
   return path.substr(path.rfind('.') + 1);
 }
 
+/// A key with its place in the scene, "frame.damping.ratio"; keys of inner tables, too.
+struct ToldKey
+{
+  std::string path;
+  const Key  *key;
+};
+
+void add_keys(const std::string &above, const std::vector<Key> &keys, std::set<std::string> &known,
+              std::vector<ToldKey> &told)
+{
+  for (const Key &key : keys)
+  {
+    const std::string path = above + "." + key.name;
+    if (known.insert(path).second) // some inner tables are declared as tables, too
+      told.push_back({path, &key});
+    add_keys(path, key.keys, known, told);
+  }
+}
+
+const std::vector<ToldKey> &told_keys()
+{
+  static const std::vector<ToldKey> all = []
+  {
+    std::vector<ToldKey>  told;
+    std::set<std::string> known;
+    for (const DeclaredTable &table : told_tables())
+      add_keys(table.path, table.keys, known, told);
+    return told;
+  }();
+  return all;
+}
+
+/// Whether `topic` is the path or its last parts.
+bool ends_in(const std::string &path, const std::string &topic)
+{
+  const std::string last = "." + topic;
+  return path == topic ||
+         (path.size() > last.size() && path.compare(path.size() - last.size(), std::string::npos, last) == 0);
+}
+
 std::string keys_called(const std::string &topic)
 {
   std::string text;
-  for (const DeclaredTable &table : told_tables())
-    for (const Key &key : table.keys)
-      if (topic == key.name || topic == table.path + "." + key.name)
-        text += table.path + "\n" + key_text(key);
+  for (const ToldKey &told : told_keys())
+    if (ends_in(told.path, topic))
+      text += told.path.substr(0, told.path.rfind('.')) + "\n" + key_text(*told.key);
   return text;
+}
+
+/// A line for each key with the name of a table.
+std::string keys_beside(const DeclaredTable &table, const std::string &topic)
+{
+  std::string text;
+  for (const ToldKey &told : told_keys())
+    if (told.path != table.path && told.path != "scene." + table.path && ends_in(told.path, topic))
+      text += padded(told.path) + plain(told.key->meaning) + "\n";
+  return text.empty() ? "" : "\nKeys of this name; gestell help KEY describes them.\n\n" + text;
 }
 
 /// The tables, or the keys, of that very name; empty: there are none.
@@ -94,13 +143,13 @@ std::string under_name(const std::string &topic)
     if (topic == table.path)
     {
       const std::string types = types_of(topic);
-      return table_text(table) + (types.empty() ? "" : "\n" + types);
+      return table_text(table) + (types.empty() ? "" : "\n" + types) + keys_beside(table, topic);
     }
   if (const std::string types = types_of(topic); !types.empty())
     return types;
   for (const DeclaredTable &table : told_tables())
     if (topic == last_part(table.path))
-      return table_text(table);
+      return table_text(table) + keys_beside(table, topic);
   return keys_called(topic);
 }
 
@@ -124,11 +173,15 @@ std::invalid_argument unknown(const std::string &topic)
   {
     names.insert(table.path);
     names.insert(last_part(table.path));
-    for (const Key &key : table.keys)
+  }
+  for (const ToldKey &told : told_keys())
+  {
+    std::size_t begin = 0;
+    do
     {
-      names.insert(key.name);
-      names.insert(table.path + "." + key.name);
-    }
+      names.insert(told.path.substr(begin));
+      begin = told.path.find('.', begin) + 1;
+    } while (begin > 0);
   }
   for (const Synonym &synonym : synonyms())
     names.insert(synonym.word);

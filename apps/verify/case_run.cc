@@ -196,6 +196,7 @@ Result analysed(const AnalysisEntry &entry, Session &session, CaseRequest &reque
   const auto analysis = entry.begin();
   take_options(*analysis, requested);
   requested.finish();
+  analysis->check(session);
   AnalysisOutcome outcome = AnalysisOutcome::done;
   Result          result  = computed(entry, *analysis, session, outcome);
   if (outcome != AnalysisOutcome::done)

@@ -57,7 +57,12 @@ public:
   {
     namespace fs = std::filesystem;
     if (!fs::is_directory(input))
+    {
+      if (!fs::exists(input) && fs::path(input).extension() != ".toml")
+        throw std::invalid_argument(input + ": there is no such scene or folder; " +
+                                    kept_folders(fs::path(input).parent_path()));
       return;
+    }
     kept_ = kept_life(input, changes);
     if (folder.empty())
       folder = fs::proximate(fs::canonical(input).string() + "_life").string();
@@ -79,6 +84,13 @@ public:
       damage_rule(life, life.curve, StressKind::direct);
     for (const WeldRequest &weld : life.welds)
       damage_rule(life, weld.curve.value_or(life.curve), weld.shear ? StressKind::shear : StressKind::direct);
+    for (const BlockRequest &block : life.blocks)
+    {
+      std::error_code none; // without a file the scene is of a calling program
+      if (std::filesystem::equivalent(block.file, scene.file, none))
+        throw std::invalid_argument(block.place + ": names its own scene, the first block; increase life.repetitions");
+      block_scene(session.variant(), block);
+    }
   }
   /// Checks what needs the frame, before the run costs time.
   void before_motion(RunInProgress &run) override

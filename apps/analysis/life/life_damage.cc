@@ -5,7 +5,6 @@
 #include "apps/analysis/life/life_rules.h"
 #include "apps/analysis/life/life_skin.h"
 #include "apps/analysis/life/weld_points.h"
-#include "apps/sizing/size_laws.h"
 #include "coupling/frame/stress_field.h"
 #include "coupling/machine/own_modes.h"
 #include "fem/values/number_text.h"
@@ -51,7 +50,7 @@ LifeGroup group_of_skin(const LifeRequest &life, const ReducedFrame &frame, cons
 {
   constexpr double apart = 0.05; // of the frame: another place, not its neighbours
   LifeGroup        group;
-  group.name              = "skin";
+  group.name              = skin_name;
   group.stress            = &frame.stress;
   group.rule              = damage_rule(life, life.curve, StressKind::direct);
   group.strength          = life.curve.strength.value_or(0.);
@@ -114,29 +113,10 @@ LifeLoad half_as_many(const LifeLoad &load)
   return thinned(load, chosen);
 }
 
-/// The states without the higher half of the modes.
-MatrixXd without_high_modes(const ReducedFrame &frame, MatrixXd states)
-{
-  const Index modes = frame.M.rows() - frame.n_interface;
-  states.middleRows(frame.n_interface + modes - modes / 2, modes / 2).setZero();
-  return states;
-}
-
-/// From the effect of the higher half of the modes to that of the truncated ones, by the frequencies of the last mode
-/// with and without this half; at least all of it, as resonances in this half are beyond the law.
-double rest_of_modes(const ReducedFrame &frame)
-{
-  const int modes = int(frame.M.rows()) - frame.n_interface, last = modes - modes / 2 - 1;
-  if (last < 0 || !(frame.omega0[last] < frame.omega0[modes - 1]))
-    return 1.;
-  return std::max(1., truncation_factor(frame.omega0, last, truncation_power(true, false)) - 1.);
-}
-
 /// Loads for the error of a life.
 struct OtherLoads
 {
   LifeLoad         coarse;
-  MatrixXd         without_modes;
   OtherCoordinates fixed; ///< of modes fixed at the interfaces
   VectorXd         omega; ///< theirs [rad/s]
 };
@@ -152,7 +132,7 @@ MatrixXd with_field(const MatrixXd &T)
 OtherLoads other_loads(const ReducedFrame &frame, const LifeLoad &load)
 {
   const auto fixed = coupling::fixed_mode_coordinates(frame);
-  OtherLoads others{half_as_many(load), without_high_modes(frame, load.states), {}, fixed.omega};
+  OtherLoads others{half_as_many(load), {}, fixed.omega};
   if (fixed.T.size() > 0)
     others.fixed = {with_field(fixed.T), with_field(fixed.inverse) * load.states};
   return others;
@@ -201,21 +181,21 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
     const SurfaceDirections &there = group.search.directions[std::size_t(at.point)];
     place.direction                = there.normal.cross(there.weld);
   }
-  constexpr double rounding = 1e-6; // of the largest range: stresses are recovered in single precision
+  constexpr double rounding = 1e-6; // of the largest stress: they are recovered in single precision
   const Cycle     *largest  = nullptr;
   for (const Cycle &cycle : cycles)
     if (!largest || cycle.range > largest->range)
       largest = &cycle;
   for (const Cycle &cycle : cycles)
   {
-    place.cycles += cycle.range > rounding * largest->range ? cycle.count : 0.;
+    place.cycles += cycle.range > rounding * (largest->range + std::abs(largest->mean)) ? cycle.count : 0.;
     if (const double cut_off = group.rule.curve.cut_off(); cut_off > 0.)
       place.utilisation = std::max(place.utilisation, group.rule.equivalent_range(cycle) / cut_off);
   }
   const int skin_point = group.skin_point(at.point);
   if (largest)
   {
-    place.range        = largest->range;
+    place.range        = place.cycles > 0. ? largest->range : 0.;
     place.mean         = largest->mean;
     place.disagreement = coupling::disagreement(frame.stress, load.states.col(largest->end), skin_point);
   }
@@ -235,8 +215,6 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
   if (std::isinf(place.damage)) // life_warnings() gives the reason
     return place;
   place.error.mesh = ratio_of_lives(damage(load.states, load.sequence, 1. + place.disagreement), place.damage);
-  place.error.modes =
-      std::pow(ratio_of_lives(damage(others.without_modes, load.sequence, 1.), place.damage), rest_of_modes(frame));
   place.error.time = std::cbrt(ratio_of_lives(damage(others.coarse.states, others.coarse.sequence, 1.), place.damage));
   place.shares     = named_shares(
           frame, others.omega,

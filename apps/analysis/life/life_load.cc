@@ -36,13 +36,15 @@ Eigen::MatrixXd states_between(const Scene &scene, const ReducedFrame &frame, co
   return states;
 }
 
-void add_run(const Scene &scene, const ReducedFrame &frame, const coupling::RunResult &run, LifeLoad &load)
+/// @param place  of the request in the own scene, for messages
+void add_run(const Scene &scene, const ReducedFrame &frame, const coupling::RunResult &run, const std::string &place,
+             LifeLoad &load)
 {
   const double          begin = std::max(run.from, scene.run.options.begin), end = scene.run.options.end;
   const Eigen::MatrixXd states = states_between(scene, frame, run, begin, end, &load.t);
   const Eigen::Index    n      = load.states.cols();
   if (states.cols() < 3)
-    throw std::runtime_error("the run of \"" + scene.name + "\" has " +
+    throw std::runtime_error(place + ": the run of " + scene.file + " has " +
                              count_text(std::size_t(states.cols()), "state") + " in " + short_text(end - begin) +
                              " s: no cycle can be counted; life.step must be shorter");
   load.states.conservativeResize(states.rows(), n + states.cols());
@@ -104,23 +106,41 @@ void apply_changes_of(const Variant &own, Variant &block)
   }
 }
 
+/// Calls `compute` for a block; an error in its scene begins with the place that names it.
+template <typename Compute>
+auto of_block(const BlockRequest &block, const Compute &compute)
+try
+{
+  return compute();
+}
+catch (const std::invalid_argument &error)
+{
+  throw std::invalid_argument(block.place + ": " + error.what());
+}
+
+Variant with_changes_of(const Variant &own, const BlockRequest &block)
+{
+  Variant variant = Variant::of_file(block.file, {}, own.scripts);
+  apply_changes_of(own, variant);
+  return variant;
+}
+
 /// Another scene on this frame, with the states and stresses that are needed here.
 std::unique_ptr<Session> block_session(Session &own, const BlockRequest &block, const ReducedFrame &frame,
                                        const Integration &integration = {})
 {
-  Variant variant               = block_variant(own.variant(), block);
+  Variant variant               = with_changes_of(own.variant(), block);
   Scene   scene                 = variant.scene();
   scene.frame.geometry.stress   = true;
   scene.run.options.states.step = own.scene().run.options.states.step;
   if (integration)
     integrate_by(integration, scene);
-  const std::string place = block.place + ": the scene \"" + scene.name + "\" ";
-  auto              other =
+  auto other =
       std::make_unique<Session>(std::move(variant), std::move(scene), Watch{own.progress(), own.interruption()});
   other->check_run();
   const ReducedFrame *there = other->machine().machine.model().reduced_frame();
   if (!there || !same_frame(frame, *there))
-    throw std::invalid_argument(place + "has a different frame (" + differing_words(there, frame) +
+    throw std::invalid_argument(block.file + ": has a different frame (" + differing_words(there, frame) +
                                 "); let both extend the same scene without changing keys of the frame");
   return other;
 }
@@ -128,21 +148,23 @@ std::unique_ptr<Session> block_session(Session &own, const BlockRequest &block, 
 void add_block(Session &own, const BlockRequest &block, const ReducedFrame &frame, const Integration &integration,
                LifeLoad &load)
 {
-  const auto   other  = block_session(own, block, frame, integration);
+  const auto   other  = of_block(block, [&] { return block_session(own, block, frame, integration); });
   const Result result = other->run();
   if (!result.run->failure.empty() || result.run->interrupted)
-    throw std::runtime_error(block.place + ": the run of \"" + other->scene().name +
-                             "\" did not finish: " + result.run->failure);
-  add_run(other->scene(), frame, *result.run, load);
+    throw std::runtime_error(block.place + ": the run of " + block.file + " did not finish: " + result.run->failure);
+  add_run(other->scene(), frame, *result.run, block.place, load);
 }
 
 } // namespace
 
 Variant block_variant(const Variant &own, const BlockRequest &block)
 {
-  Variant variant = Variant::of_file(block.file, {}, own.scripts);
-  apply_changes_of(own, variant);
-  return variant;
+  return of_block(block, [&] { return with_changes_of(own, block); });
+}
+
+Scene block_scene(const Variant &own, const BlockRequest &block)
+{
+  return of_block(block, [&] { return with_changes_of(own, block).scene(); });
 }
 
 void weigh(LifeLoad &load, const Variant &own, const Scene &scene)
@@ -158,13 +180,13 @@ void weigh(LifeLoad &load, const Variant &own, const Scene &scene)
   };
   weigh_run(0, &life, life.repetitions);
   for (std::size_t k = 0; k < life.blocks.size(); ++k)
-    weigh_run(k + 1, block_variant(own, life.blocks[k]).scene().life.get(), life.blocks[k].repetitions);
+    weigh_run(k + 1, block_scene(own, life.blocks[k]).life.get(), life.blocks[k].repetitions);
 }
 
 void check_blocks(Session &session)
 {
   for (const BlockRequest &block : session.scene().life->blocks)
-    block_session(session, block, *session.machine().machine.model().reduced_frame());
+    of_block(block, [&] { return block_session(session, block, *session.machine().machine.model().reduced_frame()); });
 }
 
 void integrate_by(const Integration &integration, Scene &scene)
@@ -180,7 +202,7 @@ LifeLoad life_load(Session &session, const coupling::RunResult &run, const Integ
   const ReducedFrame &frame = *session.machine().machine.model().reduced_frame();
   LifeLoad            load;
   load.step = scene.run.options.states.step;
-  add_run(scene, frame, run, load);
+  add_run(scene, frame, run, life.place, load);
   const double begin = scene.run.options.begin, length = scene.run.options.end - run.from;
 
   if (run.from > begin && run.from - length >= begin - load.step)

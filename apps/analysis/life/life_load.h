@@ -27,8 +27,9 @@ struct LifeLoad
   Eigen::Index n_samples() const { return states.cols(); }
 };
 
-/// The scene of a block with the changes that reach it.
+/// The scene of a block with the changes that reach it, as data and read; errors begin with the place of the block.
 Variant block_variant(const Variant &own, const BlockRequest &block);
+Scene   block_scene(const Variant &own, const BlockRequest &block);
 
 /// Sets what does not depend on states: repetitions, residue, service and strokes.
 void weigh(LifeLoad &load, const Variant &own, const Scene &scene);

@@ -21,18 +21,19 @@ namespace gestell::apps
 /// Factors on life, >= 1: true lives are between life / factor and life * factor.
 struct LifeError
 {
-  double mesh = 1., modes = 1., time = 1.;
+  double                mesh = 1., time = 1.;
+  std::optional<double> modes; ///< known by further runs only
 
-  double total() const { return mesh * modes * time; }
+  double total() const { return mesh * time * modes.value_or(1.); }
 };
 
 template <class Visitor>
 void describe(Visitor &v, const LifeError &x)
 {
   v("mesh", x.mesh, "1", "stress higher by the disagreement of neighbouring elements");
-  v("modes", x.modes, "1", "truncated modes, from the effect of the higher half of the others");
-  v("time", x.time, "1", "a third of what every second state changes");
-  v("total", x.total(), "1", "their product");
+  v("modes", x.modes, "1", "twice the modes; null without `--life-error`");
+  v("time", x.time, "1", "a third of what every second state changes; finer integration with `--life-error`");
+  v("total", x.total(), "1", "product of those that are known");
 }
 
 /// A place and its damage in one repetition of the load.
@@ -45,7 +46,7 @@ struct LifePlace
   double          damage    = 0.;
   double          life      = std::numeric_limits<double>::infinity(); ///< repetitions of the load until failure
   double          strokes = life, hours = life;                        ///< the same
-  double          cycles = 0.;                                         ///< counted
+  double          cycles = 0.;                                         ///< counted; 0: the stress is constant
   double          range = 0., mean = 0.;                               ///< [Pa] largest range, and its mean
   double          utilisation  = 0.; ///< largest equivalent range over the cut-off of the curve; without one 0
   double          disagreement = 0.;
@@ -159,7 +160,7 @@ void describe(Visitor &v, const LifeResult &x)
 {
   const LifePlace worst = x.places.empty() ? LifePlace() : x.places.front();
   describe_life(v, worst);
-  v("factor", worst.error.total(), "1", "error as a factor on life");
+  v("factor", worst.error.total(), "1", "error as a factor on life; without `--life-error` that of mesh and sampling");
   v("curve", x.rule.curve.name, "", "S-N curve of the worst place");
   v("measure", x.asked.measure, "", "stress that is counted without a direction");
   v("mean_stress", x.asked.mean_stress, "", "correction for mean stresses");

@@ -20,15 +20,28 @@ std::string position_words(const LifePlace &x)
   return "(" + short_text(x.at[0]) + " " + short_text(x.at[1]) + " " + short_text(x.at[2]) + ")";
 }
 
+/// A life, or one until the end of time: three digits, of which single precision of stresses leaves more and S-N curves
+/// fewer; without an exponent up to a million millions, with groups from ten thousand on.
 std::string life_words(double life)
 {
-  return std::isfinite(life) ? short_text(life, 3) : "no end";
+  constexpr int    digits = 3;
+  constexpr double most   = 1e12;
+  if (!(life >= 1e3 && life < most))
+    return std::isfinite(life) ? short_text(life, digits) : "no end";
+  const double step = std::pow(10., std::floor(std::log10(life)) + 1. - digits);
+  std::string  text = std::to_string(std::llround(life / step) * std::llround(step));
+  for (std::size_t left = text.size(); text.size() > 4 && left > 3;)
+    text.insert(left -= 3, 1, ' ');
+  return text;
 }
 
 /// The worst place in a sentence.
 std::string worst_words(const LifeResult &found)
 {
   const LifePlace &worst = *found.worst();
+  if (worst.cycles == 0.)
+    return "No cycle, so no damage: the stress is constant, " + short_text(worst.mean / mega) + " MPa at " +
+           position_words(worst) + ".";
   if (!(worst.damage > 0.))
     return "No damage: the largest range, " + short_text(worst.range / mega) + " MPa at " + position_words(worst) +
            (worst.utilisation > 0. ? ", is " + percent(worst.utilisation, 3) + " of the cut-off limit of the S-N curve."
@@ -43,11 +56,15 @@ std::string factor_words(double factor)
   return std::isfinite(factor) ? short_text(factor, 3) : "unbounded";
 }
 
-std::string error_words(const LifePlace &worst)
+std::string error_words(const LifeResult &found)
 {
-  return "Error as a factor on life: " + factor_words(worst.error.total()) + " (mesh " +
-         factor_words(worst.error.mesh) + ", modes " + short_text(worst.error.modes, 3) + ", time " +
-         short_text(worst.error.time, 3) + ").";
+  const LifeError  &error = found.worst()->error;
+  const std::string words =
+      "Error as a factor on life: " + factor_words(error.total()) + " (mesh " + factor_words(error.mesh);
+  return found.refined
+             ? words + ", modes " + factor_words(error.modes.value_or(1.)) + ", time " + factor_words(error.time) + ")."
+             : words + ", sampling " + factor_words(error.time) +
+                   "); --life-error adds those of modes and integration.";
 }
 
 std::string rule_words(const LifeResult &found)
@@ -78,13 +95,13 @@ std::string steadiness_words(const LifeResult &found)
 HtmlTable places_table(const LifeResult &found)
 {
   HtmlTable  table({"place", "at x, y, z [m]", "#damage", "#strokes", "#hours", "#largest range [MPa]", "#mean [MPa]",
-                    "#cycles", "#elements disagree", "#factor on life"});
+                    "#cycles", "#elements disagree", "#factor of mesh"});
   const auto add = [&](const LifePlace &x)
   {
-    table.add({x.nearby.empty() ? x.of : (x.of == "skin" ? "" : x.of + " ") + "beside " + x.nearby, position_words(x),
+    table.add({x.nearby.empty() ? x.of : (x.of == skin_name ? "" : x.of + " ") + "beside " + x.nearby, position_words(x),
                peak(short_text(x.damage, 3), &x == found.worst()), life_words(x.strokes), life_words(x.hours),
                short_text(x.range / mega), short_text(x.mean / mega), short_text(x.cycles), percent(x.disagreement, 2),
-               factor_words(x.error.total())});
+               factor_words(x.error.mesh)});
   };
   for (const LifePlace &x : found.places)
     add(x);
@@ -124,7 +141,8 @@ Headline headline_of(const LifeResult &found)
     return {};
   return {worst_words(found),
           {{life_words(worst->strokes), "strokes until failure"},
-           {factor_words(worst->error.total()), "factor on life, error"},
+           {factor_words(worst->error.total()),
+            found.refined ? "factor on life, error" : "factor on life, error of mesh and sampling"},
            {short_text(worst->range / mega) + " MPa", "largest range at the worst place"}}};
 }
 
@@ -136,7 +154,7 @@ std::vector<Section> sections_of(const Result &, const LifeResult &found)
   const LifePlace &worst = *found.worst();
   section.parts.push_back(Section::Sentences{worst_words(found)});
   if (worst.damage > 0.)
-    section.parts.push_back(Section::Sentences{error_words(worst)});
+    section.parts.push_back(Section::Sentences{error_words(found)});
   if (const std::string text = steadiness_words(found); !text.empty())
     section.parts.push_back(Section::Sentences{text});
   section.parts.push_back(places_table(found));

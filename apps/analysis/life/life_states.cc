@@ -5,9 +5,11 @@
 #include "apps/session/checkpoint/checkpoint_file.h"
 #include "coupling/frame/sha256.h"
 #include "coupling/integration/system/state_archive.h"
+#include "fem/values/nearest_name.h"
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -116,6 +118,20 @@ std::function<std::string()> life_states_bin(const Variant &scene, const Reduced
   };
 }
 
+std::string kept_folders(const fs::path &beside)
+{
+  std::set<std::string> known; // in order
+  std::error_code       unreadable;
+  for (const auto &entry : fs::directory_iterator(beside.empty() ? fs::path(".") : beside, unreadable))
+    if (fs::exists(entry.path() / life_states_file, unreadable))
+      known.insert(entry.path().filename().string());
+  return "give a scene (.toml), or the result folder of a run with [life], which contains " +
+         std::string(life_states_file) +
+         (known.empty()
+              ? ""
+              : ": in " + (beside.empty() ? "." : beside.string()) + " " + listed({known.begin(), known.end()}));
+}
+
 KeptLife kept_life(const fs::path &folder, const std::vector<std::string> &changes)
 {
   KeptLife   kept{folder / life_states_file, "", {}, ""};
@@ -125,7 +141,7 @@ KeptLife kept_life(const fs::path &folder, const std::vector<std::string> &chang
   std::ifstream in(kept.file, std::ios::binary);
   if (!in)
     throw std::invalid_argument(folder.string() + " contains no " + life_states_file +
-                                ", the states of a run with [life]; add [life] to its scene and run it again");
+                                ", the states of a run with [life]; " + kept_folders(folder.parent_path()));
   bool has_state = false;
   for (std::string line; !has_state && std::getline(in, line); has_state = line.find(" state") == 64)
     if (line.rfind(scene_line, 0) == 0)

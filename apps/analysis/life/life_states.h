@@ -28,6 +28,9 @@ struct KeptLife
   std::string              bytes;
 };
 
+/// What can be given to `gestell life`, with the result folders in a folder that have states.
+std::string kept_folders(const std::filesystem::path &beside);
+
 /// @throws std::invalid_argument: no states, a damaged file, or what has changed that they depend on
 KeptLife kept_life(const std::filesystem::path &folder, const std::vector<std::string> &changes);
 

@@ -187,7 +187,7 @@ std::vector<LifeDerivative> life_derivatives(Session &session, const LifeResult 
       }
       differentiate(damages, own);
     }
-    catch (const std::runtime_error &failure)
+    catch (const std::exception &failure) // also a value that the scene refuses, such as another notch class
     {
       if (session.interruption() && *session.interruption())
         throw;

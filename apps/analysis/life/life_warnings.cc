@@ -66,12 +66,16 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
   std::vector<std::string> warnings = found.warnings;
   const LifePlace         *worst    = found.worst();
   if (!worst)
-    return {"life: no cycle was counted: the stress is constant, or all points of the mesh are next to rigid surfaces; "
+    return {"life: no cycle was counted: there is no stress, or all points of the mesh are next to rigid surfaces; "
             "refine the mesh"};
+  if (worst->cycles == 0.)
+    warnings.push_back("life: no cycle was counted: the stress does not change between output.from and the end of the "
+                       "run; a life needs a load that rises and falls");
   add_unresolved(found, warnings);
   add_beyond_strength(found, warnings);
+  constexpr double rounding = 1e-4; // of a damage: that of stresses in single precision times the slope
   if (found.beside_rigid &&
-      found.beside_rigid->damage > (worst->damage > 0. ? worst->error.total() * worst->damage : 0.))
+      found.beside_rigid->damage > (worst->damage > 0. ? (1. + rounding) * worst->error.total() * worst->damage : 0.))
     warnings.push_back("life: the damage at " + position_of(*found.beside_rigid) + ", next to " +
                        found.beside_rigid->nearby + ", is larger, " + short_text(found.beside_rigid->damage, 3) +
                        ", but the stress at the edge of a rigid surface is singular, so no mesh resolves it; use "
@@ -88,11 +92,12 @@ std::vector<std::string> life_warnings(const Scene &scene, const LifeResult &fou
                        " of its range, so the load does not repeat smoothly; count one period only (output.from), or "
                        "let the run end in its initial state");
   if (std::isinf(worst->damage))
-    warnings.push_back(
-        "life: the mean stress of a cycle at " + position_of(*worst) +
-        " reaches the tensile strength, so that mean_stress = \"goodman\" leaves no life; check the unit "
-        "of 'strength' and the load");
-  if (worst->cycles <= 1. && found.closing > steady)
+    warnings.push_back("life: no life is left at " + position_of(*worst) + ": " +
+                       (found.asked.mean_stress == "goodman"
+                            ? "the mean stress of a cycle reaches the tensile strength (mean_stress = \"goodman\"); "
+                              "check the unit of 'strength' and the load"
+                            : "the damage exceeds all numbers; check the S-N curve, its factors and the load"));
+  if (worst->cycles > 0. && worst->cycles <= 1. && found.closing > steady)
     warnings.push_back("life: " + short_text(worst->cycles) +
                        " cycle was counted at the worst place: the run contains only one rise and fall, so "
                        "smaller repeated cycles are not counted");

@@ -23,6 +23,15 @@ void take_all_away(SceneNode &table)
                 entries.end());
 }
 
+void add_changes(const SceneNode &table, std::string &changes)
+{
+  for (const auto &[key, value] : table.entries)
+    if (from_command_line(value))
+      changes += (changes.empty() ? "" : ", ") + value.place.file;
+    else
+      add_changes(value, changes);
+}
+
 std::string method_in(const SceneNode &table, const std::string &otherwise)
 {
   const SceneNode *method = table.find("method");
@@ -34,6 +43,14 @@ std::string method_in(const SceneNode &table, const std::string &otherwise)
 bool from_command_line(const SceneNode &node)
 {
   return node.place.file.rfind("--set", 0) == 0;
+}
+
+std::string changes_words(const SceneNode &table)
+{
+  std::string changes;
+  if (!from_command_line(table))
+    add_changes(table, changes);
+  return changes.empty() ? "" : ": with " + changes;
 }
 
 void make_way(SceneNode &older, const SceneNode &newer)

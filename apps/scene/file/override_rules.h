@@ -8,6 +8,10 @@ namespace gestell::apps
 /// Whether a value was given by `--set`.
 bool from_command_line(const SceneNode &node);
 
+/// ": with --set life.curve.class=70" for a table of a file with keys that were given by `--set`, in it or its inner
+/// tables; "": there are none.
+std::string changes_words(const SceneNode &table);
+
 /**
  * Lets a newer layer of [run], from an extending file or the command line, replace keys of an older layer without
  * resetting each of them: another method removes the parameters of the former one; a tolerance replaces a fixed step

@@ -1,5 +1,6 @@
 #include "apps/scene/file/scene_table.h"
 
+#include "apps/scene/file/override_rules.h"
 #include "apps/scene/file/unknown_keys.h"
 #include "apps/scene/file/written_text.h"
 #include "fem/values/named_file.h"
@@ -26,7 +27,8 @@ SceneTable::SceneTable(const SceneNode &node, const Parameters &parameters, cons
 {
   node.used = true;
   if (node.type != Type::table)
-    throw error("needs a table of keys, got " + described(node));
+    throw error("needs a table of keys, got " + described(node) +
+                (node.type == Type::array ? "; write [" + path + "], with single brackets" : ""));
 }
 
 SceneTable SceneTable::below(const SceneNode &node, const std::string &path, const std::string &name) const
@@ -48,7 +50,7 @@ std::string SceneTable::name() const
 
 std::string SceneTable::place() const
 {
-  return node_->place.text() + (path_.empty() ? "" : ": " + path_);
+  return node_->place.text() + (path_.empty() ? "" : ": " + path_ + changes_words(*node_));
 }
 
 std::string SceneTable::place(const std::string &key) const
@@ -303,7 +305,7 @@ std::vector<std::array<double, 2>> SceneTable::pairs(const std::string &key, con
   const std::string wanted = "rows of two values [[\"" + first.example + "\", \"" + second.example + "\"], [..]]";
   const SceneNode  &value  = demand(key, wanted);
   if (value.type != Type::array || value.elements.empty())
-    throw error(key, "needs " + wanted + ", got " + described(value));
+    throw error(key, "needs " + wanted + ", got " + (value.type == Type::array ? "an empty array" : described(value)));
   std::vector<std::array<double, 2>> rows;
   for (const auto &row : value.elements)
   {
@@ -430,7 +432,8 @@ std::vector<SceneTable> SceneTable::table_array(const std::string &key) const
   if (!value)
     return result;
   if (value->type != Type::array)
-    throw error(key, "needs an array of tables [{ ... }, { ... }], got " + described(*value));
+    throw error(key, "needs an array of tables [{ ... }, { ... }], got " + described(*value) +
+                         (value->type == Type::table ? "; write [[" + path_of(key) + "]], with double brackets" : ""));
   for (const auto &element : value->elements)
     result.push_back(inner(below(element, path_of(key) + "[" + std::to_string(result.size() + 1) + "]", key), key));
   return result;

@@ -118,7 +118,8 @@ public:
 
   const std::string &path() const { return path_; }
   std::string        name() const;  ///< own name: last segment of the path
-  std::string        place() const; ///< "press.toml:12: body.crank"
+  /// "press.toml:12: body.crank"; with keys from the command line "press.toml:12: body.crank: with --set ..."
+  std::string        place() const;
   std::string        place(const std::string &key) const;
 
   std::invalid_argument error(const std::string &what) const;

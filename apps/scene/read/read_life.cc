@@ -59,7 +59,8 @@ const std::vector<Key> &curve_keys()
 const std::vector<Key> &weld_keys()
 {
   static const std::vector<Key> keys = {
-      key::plain("name", Key::Form::text, "name of the weld").by_default("of its surfaces"),
+      key::plain("name", Key::Form::text, "name of the weld, for results")
+          .by_default("of its surfaces and of a shear stress"),
       key::plain("surfaces", Key::Form::texts,
                  "names of `[frame.surface.NAME]` with a plane, cylinder or box: one surface is an area, two are a "
                  "line where they meet; stresses are evaluated on the first"),
@@ -169,8 +170,10 @@ CurveRequest read_curve(const SceneTable &table)
 
 void require_whole(const SceneTable &table, double repetitions)
 {
-  if (!(repetitions >= 1.))
-    throw table.error("repetitions", "needs a number of 1 or more, got " + short_text(repetitions));
+  constexpr double most = 9e15; // counts above are rounded
+  if (!(repetitions >= 1. && repetitions <= most))
+    throw table.error("repetitions",
+                      "needs a number of 1 or more, at most " + short_text(most) + ", got " + short_text(repetitions));
 }
 
 WeldRequest read_weld(const SceneTable &table, const fem::FrameSpecification &frame)
@@ -183,8 +186,9 @@ WeldRequest read_weld(const SceneTable &table, const fem::FrameSpecification &fr
     throw table.error("surfaces", "needs one surface or two, got " + std::to_string(weld.surfaces.size()));
   if (weld.surfaces.size() == 2 && weld.surfaces[0] == weld.surfaces[1])
     throw table.error("surfaces", "names '" + weld.surfaces[0] + "' twice; name two surfaces that meet, or one");
-  weld.name =
-      table.text("name", weld.surfaces.size() == 2 ? weld.surfaces[0] + " to " + weld.surfaces[1] : weld.surfaces[0]);
+  weld.shear = table.choice("stress") == "shear";
+  weld.name  = table.text("name", weld.surfaces.front() + (weld.surfaces.size() == 2 ? " to " + weld.surfaces[1] : "") +
+                                      (weld.shear ? ", shear" : ""));
   std::vector<std::string> declared;
   for (const auto &entry : frame.surfaces)
     declared.push_back(entry.first);
@@ -207,7 +211,6 @@ WeldRequest read_weld(const SceneTable &table, const fem::FrameSpecification &fr
     weld.direction = table.direction("direction");
   if (const auto curve = table.optional_table("curve"))
     weld.curve = read_curve(*curve);
-  weld.shear     = table.choice("stress") == "shear";
   weld.distances = table.has("distances") ? table.numbers("distances", kind::number) : std::vector<double>{0.4, 1.};
   if (weld.shear && weld.surfaces.size() == 1 && !weld.direction)
     throw table.error("stress", "\"shear\" needs the 'direction' across the weld");
@@ -239,8 +242,14 @@ void read_life(const SceneTable &scene, Scene &result)
   require_whole(table, life.repetitions);
   if (const auto curve = table.optional_table("curve"))
     life.curve = read_curve(*curve);
-  for (const SceneTable &weld : table.table_array("weld"))
-    life.welds.push_back(read_weld(weld, result.frame.geometry));
+  for (const SceneTable &own : table.table_array("weld"))
+  {
+    WeldRequest weld = read_weld(own, result.frame.geometry);
+    if (weld.name == skin_name || std::any_of(life.welds.begin(), life.welds.end(),
+                                              [&](const WeldRequest &other) { return other.name == weld.name; }))
+      throw own.error("has the name '" + weld.name + "' of another place; give it a 'name' of its own");
+    life.welds.push_back(std::move(weld));
+  }
   for (const SceneTable &block : table.table_array("block"))
   {
     life.blocks.push_back(block.filled<BlockRequest>());

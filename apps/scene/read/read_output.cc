@@ -244,6 +244,9 @@ static void read_window(const SceneTable &table, Scene &result)
     throw table.error("from", "is " + short_text(run.from) + " s, before the start of the run at " +
                                   short_text(run.begin) +
                                   " s; give a time within the run, or omit the key for the whole run");
+  if (table.has("from") && result.run.given && run.from >= run.end)
+    throw table.error("from",
+                      "is " + short_text(run.from) + " s; it must be before run.end = " + short_text(run.end) + " s");
 }
 
 /// Arguments of functions may be other signals, by their name.

@@ -25,6 +25,8 @@ struct CurveRequest
   std::string                        place;
 };
 
+constexpr const char *skin_name = "skin"; ///< of what no weld names
+
 /// A weld, or any part of the skin that is judged by its own stress.
 struct WeldRequest
 {

@@ -70,7 +70,8 @@ public:
     const std::size_t begin = text.find("[life]"), end = text.find("[output]");
     return text.substr(0, begin) + text.substr(end);
   }
-  void file(const std::string &name, const std::string &text) const { folder_.file(name, text); }
+  void        file(const std::string &name, const std::string &text) const { folder_.file(name, text); }
+  std::string path(const std::string &name) const { return (folder_ / name).string(); }
 
 private:
   const std::filesystem::path scenes = GESTELL_SOURCE_DIR "/apps/verification/scenes";
@@ -164,6 +165,8 @@ TEST(LifeRun, NamesWhatStatesDependOn)
   expect_answer(bar.again(""), 2, {"'parameters' of the block light.toml has changed since", "gestell life SCENE"});
   bar.file("light.toml", "extends = 'bar_life.toml'\nparameters = { F = '2 MN' }\n");
   expect_answer(bar.again(""), 0, {"Life of the frame"});
+  expect_answer(gestell("life '" + bar.results() + "_none'"), 2,
+                {"no such scene or folder", "life_states.bin: in", "'results'"});
   const std::string whole = bar.states("");
   expect_answer(bar.again(""), 2, {"life_states.bin", "gestell life SCENE"});
   bar.states(whole.substr(0, whole.size() - 1));
@@ -228,6 +231,8 @@ TEST(LifeRun, DerivativesNoteCyclesThatAppear)
   with_cut_off(std::to_string(second * 0.9));
   EXPECT_EQ(count(bar.summary(), "appear or vanish"), 0);
   EXPECT_LT(bar.derivative("parameters.f", "error"), 1e-3);
+  bar.life("", " --life-by life.curve.class");
+  EXPECT_NE(bar.summary().find("no derivative: "), std::string::npos); // there are only some classes
 }
 
 /// Both sides of a bore in two coarse cells, each with damage; a bar without one has no such place.
@@ -283,11 +288,34 @@ TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
           {"stress_relieved", "a shear stress does not have"});
   refused("[[life.weld]]\nsurfaces = ['top']\ndirection = [0, 0, 1]\n", {"is normal to 'top'", "in this surface"});
   refused("[[life.weld]]\nsurfaces = ['wall', 'top']\n", {"first surface", "name the other surface first"});
+  refused("[life.weld]\nsurfaces = 'top'\n", {"life.weld: ", "write [[life.weld]]"});
+  refused("[[life]]\n", {"write [life], with single brackets"});
+  refused("[[life.weld]]\nsurfaces = 'top'\n[[life.weld]]\nsurfaces = 'top'\n", {"life.weld[2]", "'name' of its own"});
+  refused("[[life.weld]]\nsurfaces = 'top'\nname = 'skin'\n", {"life.weld[1]", "'name' of its own"});
+  refused("[[life.block]]\nscene = 'own.toml'\n", {"own.toml:2: life.block[1]: names its own scene"});
+  refused("life.repetitions = 1e308\n", {"at most 9e+15"});
   expect_answer(bar.life("", " --life-by parameters.G"), 2, {"--life-by parameters.G"});
+  expect_answer(bar.life("", " --set life.curve.class=70"), 2,
+                {": life.curve: with --set life.curve.class=70: ", "71"});
+  bar.file("other.toml", "extends = 'bar_life.toml'\nrun.end = -1\n");
+  refused("[[life.block]]\nscene = 'other.toml'\n", {"own.toml:2: life.block[1]: ", "other.toml:2: run.end"});
+  bar.file("other.toml", "extends = 'bar_life.toml'\noutput.from = '5 s'\n");
+  refused("[[life.block]]\nscene = 'other.toml'\n", {"own.toml:2: life.block[1]: ", "other.toml:2: output.from: is 5 s"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nframe.material.E = '200 GPa'\n");
   refused("[[life.block]]\nscene = 'other.toml'\n", {"has a different frame", "material or dimensions differ"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nreduction.modes = 4\n");
   refused("[[life.block]]\nscene = 'other.toml'\n", {"has a different frame", "4 modes", "8 modes"});
+}
+
+/// The run in its folder is neither replaced nor said to be.
+TEST(LifeRun, ASceneWithoutLifeIsRefusedBeforeTheRun)
+{
+  const Bar bar("life_none");
+  bar.life("");
+  bar.file("none.toml", bar.scene_without_life());
+  const Answer answer = gestell("life '" + bar.path("none.toml") + "' -o '" + bar.results() + "'");
+  expect_answer(answer, 2, {"there is no [life]"});
+  EXPECT_FALSE(answer.says("replaced")) << answer.text;
 }
 
 /// Failure at D = 0.3 shortens the life; a mean beyond the strength leaves none, with its reason.
@@ -299,9 +327,9 @@ TEST(LifeRun, FailsAtItsDamageSum)
   expect_answer(bar.life("without = ['life.curve.class']\nlife.curve.strength = '30 MPa'\nlife.mean_stress = "
                          "'goodman'\nrun = { end = '1.5 s' }\noutput = { from = '1 s' }\n"), // 0 to 71 MPa
                 0, {"reaches the tensile strength"});
+  expect_answer(bar.life("life.curve.safety = 1e300\n"), 0, {"no life is left at (", "the damage exceeds all numbers"});
 }
 
-/// Three quarters of a period are one rise and fall; the stress does not return to where it began.
 /// A stiffness and the sheet of the press that new projects begin with, in coarse cells:
 /// `--life-by` integrates by `exact`, the central differences over another distance by a quarter of the scene's step.
 TEST(LifeRun, DerivativesOfAPressAreThoseOfConvergedRuns)
@@ -342,6 +370,56 @@ TEST(LifeRun, DerivativesOfAPressAreThoseOfConvergedRuns)
   }
 }
 
+/// A force of its own in a block with an offset, and a factor on both: with the cycle between the blocks no closed
+/// case.
+TEST(LifeRun, DerivativesOfBlocksAreThoseOfWholeRuns)
+{
+  const Bar         bar("life_block_derivatives");
+  const std::string own = "[parameters]\nk = 1\n[element.load]\nharmonics = [{ amplitude = 'k*F', frequency = '1/T_s' "
+                          "}]\n[life]\nrepetitions = 3\n[[life.block]]\nscene = 'block.toml'\nrepetitions = 2\n";
+  bar.file("block.toml", "extends = 'own.toml'\nparameters = { F = '4 MN' }\nelement.load.constant = '1 MN'\n");
+  const auto damage_with = [&](const std::string &key, double factor, const std::string &value)
+  {
+    bar.life(own, " --set parameters." + key + "='\"" + number(factor) + "*(" + value + ")\"'");
+    return bar.number({"life", "damage"});
+  };
+  bar.life(own, " --life-by parameters.k,parameters.F");
+  const std::string summary = bar.summary();
+  for (const auto &[key, value] : {std::pair("k", "1"), std::pair("F", "3.55 MN")})
+  {
+    constexpr double  h      = 4e-3;
+    const std::string here   = summary.substr(summary.find("\"key\": \"parameters." + std::string(key) + '"'));
+    const double      change = std::log(damage_with(key, 1. + h, value) / damage_with(key, 1. - h, value));
+    EXPECT_NEAR(json_number(here, {"exponent"}), -change / std::log((1. + h) / (1. - h)), 1e-3) << key;
+    EXPECT_LT(json_number(here, {"error"}), 1e-3) << key;
+  }
+  const std::string of_F = summary.substr(summary.find("\"key\": \"parameters.F\""));
+  EXPECT_GT(json_number(of_F, {"exponent"}), -2.); // of both blocks it would be -3
+  EXPECT_LT(json_number(of_F, {"exponent"}), -0.1);
+}
+
+/// What a run cannot know is not a number; lives are printed with three digits.
+TEST(LifeRun, OnlyFurtherRunsKnowTheErrorOfModes)
+{
+  const Bar    bar("life_error");
+  const Answer plain = bar.life("");
+  expect_answer(plain, 0, {"250 000 strokes or 69.4 h until failure", "--life-error adds those of modes"});
+  EXPECT_NE(bar.summary().find("\"modes\": null"), std::string::npos);
+  expect_answer(bar.life("", " --life-error"), 0, {", modes 1"});
+  EXPECT_NEAR(bar.number({"life", "places", "factor", "modes"}), 1., slow);
+}
+
+/// A force at rest, from its equilibrium.
+TEST(LifeRun, AConstantStressHasNoCycle)
+{
+  const Bar bar("life_constant");
+  expect_answer(bar.life("element.load = { harmonics = [], constant = '3 MN' }\nstart.rule = 'static'\n"
+                         "output.from = '1 s'\n"),
+                0, {"No cycle, so no damage: the stress is constant, 60 MPa", "life: no cycle was counted"});
+  EXPECT_EQ(bar.number({"life", "places", "cycles"}), 0.);
+}
+
+/// Three quarters of a period are one rise and fall; the stress does not return to where it began.
 TEST(LifeRun, AnOpenLoadWarns)
 {
   const Bar bar("life_short");

@@ -352,3 +352,33 @@ TEST(Help, FindsTablesAndKeysAndSuggestsNearOnes)
   EXPECT_NE(help_text("frame").find("frame.surface"), std::string::npos);
   gestell::tests::expect_refusal([&] { help_text("element.roop"); }, "element.rope");
 }
+
+void expect_known(const std::string &path, const std::vector<Key> &keys)
+{
+  for (const Key &key : keys)
+  {
+    const std::string own = path + '.' + key.name;
+    for (std::size_t dot = 0; dot != std::string::npos; dot = own.find('.', dot + 1))
+    {
+      const std::string topic = own.substr(dot == 0 ? 0 : dot + 1);
+      EXPECT_NE(help_text(topic).find(key.name), std::string::npos) << topic;
+    }
+    expect_known(own, key.keys);
+  }
+}
+
+/// Inside inline tables, too, and by the last parts of the path; a name of a table and of keys gives both.
+TEST(Help, KnowsEveryKey)
+{
+  for (const DeclaredTable &table : declared_tables())
+    if (!table.path.empty())
+      expect_known(table.path, table.keys);
+  EXPECT_NE(help_text("prestress.loads").find("frame.prestress\n  loads"), std::string::npos);
+  EXPECT_NE(help_text("damping.modes").find(help_text("frame.damping.modes")), std::string::npos);
+  for (const char *path : {"frame.damping.ratio", "life.weld.curve.class", "curve.class"})
+    EXPECT_NE(help_text(path), "");
+  const std::string modes = help_text("modes");
+  for (const char *path : {"[modes]", "  reduction.modes ", "  frame.damping.modes "})
+    EXPECT_NE(modes.find(path), std::string::npos) << path;
+  gestell::tests::expect_refusal([&] { help_text("damping.rato"); }, "damping.ratio");
+}

@@ -155,6 +155,8 @@ TEST(SceneFrame, MeasuredModesComeFromTablesAndUniversalFiles)
                         "bad.csv:1: needs the columns");
   tests::expect_refusal([] { measured_in("much.csv", "frequency [Hz],ratio\n20,1.5\n"); },
                         "much.csv:2: the damping ratio is 1.5");
+  tests::expect_refusal([] { measured_in("twice.csv", "ratio,mode\n0.01,1\n0.02,2\n0.03,1\n"); },
+                        "twice.csv:4: gives mode 1 a second ratio, after ");
   tests::expect_refusal([] { measured_in("none.csv", "frequency [Hz],ratio\n"); }, "contains no modes");
   tests::expect_refusal([&] { measured_in("none.uff", nodes); }, "none.uff: contains no modes");
   tests::expect_refusal(

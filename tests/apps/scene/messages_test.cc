@@ -22,6 +22,20 @@ TEST(Messages, TellAFormulaWhereAValueIsNeeded)
             std::string::npos);
 }
 
+/// Of the options, those that set a key of the table or of its inner tables.
+TEST(Messages, AboutATableNameTheOptionsThatChangedIt)
+{
+  const auto said = [](const std::vector<std::string> &options)
+  { return complaint(test::cad_scene("ratio = 0.02", "ratio = 0.02, modes = [{ mode = 2, ratio = 0.01 }]"), options); };
+  EXPECT_EQ(said({"name=other"}), "");
+  const std::string clamped = said({"name=other", "frame.support.feet.clamped=true"});
+  EXPECT_NE(clamped.find("frame.support.feet: with --set frame.support.feet.clamped=true: "), std::string::npos)
+      << clamped;
+  EXPECT_EQ(clamped.find("name=other"), std::string::npos) << clamped;
+  EXPECT_EQ(complaint(test::cad_scene("foundation =", "clamped = true\nfoundation ="), {"name=other"}).find("--set"),
+            std::string::npos);
+}
+
 const std::string two_slides =
     slider_body("a", "1", "[1, 0, 0]") + slider_body("b", "1", "[1, 0, 0]") + rotor_body("w", "1", "[0, 0, 1]");
 

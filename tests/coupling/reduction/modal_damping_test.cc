@@ -309,7 +309,7 @@ TEST(ModalDamping, RefusesRatiosOfModesThatTheFrameDoesNotHave)
   refused({{0.01, 32}}, "there: is of mode 33, but the model of the frame has 32 elastic modes");
   refused({{0.01, -1, 0.1, 0.2}}, "no elastic mode of the frame has a frequency from 0.1 to 0.2 Hz");
   refused({{0.01, -1, 0.1, 0.1}},
-          "the measured mode of 0.1 Hz matches no mode of the frame: no elastic mode is near it");
+          "the measured mode of 0.1 Hz matches no mode of the frame: no elastic mode is within 30 % of it");
   refused({{0.01, 0}, {0.02, -1, hz(0), hz(0)}}, "mode 1 has two ratios, 1 % and 2 %");
   refused({measured(frame, VectorXd::Random(frame.M.rows()), hz(2), 0.01)}, "a MAC of 0.5 is needed; candidates: mode");
 }

@@ -130,7 +130,8 @@ void read_modes(const SceneTable &damping, fem::ModalRatios &ratios)
     {
       for (const fem::NamedRatio &other : ratios.named)
         if (one.mode >= 0 && other.mode == one.mode)
-          throw row.error("gives mode " + std::to_string(one.mode + 1) + " a second ratio; leave one of them out");
+          throw std::invalid_argument(one.place + ": gives mode " + std::to_string(one.mode + 1) +
+                                      " a second ratio, after " + other.place + "; leave one of them out");
         else if (one.from < one.to && other.from < other.to && one.from < other.to && other.from < one.to)
           throw row.error("covers frequencies from " + short_text(std::max(one.from, other.from)) + " to " +
                           short_text(std::min(one.to, other.to)) +
@@ -228,8 +229,8 @@ const std::vector<Key> &damping_keys()
            key::number("ratio", kind::number, "damping ratio").by_default("of the file")},
           "damping ratios of single modes of the supported frame, dampers of its supports included; all other modes "
           "have `ratio` in addition to their dampers; exact in `gestell modes`. `mode` has priority over an interval. "
-          "Measured modes without a number get the mode of the frame with the most similar shape (MAC) within 30 % of "
-          "their frequency, or without shapes of the nearest frequency within 20 %")
+          "Measured modes without a number get the mode of the frame within 30 % of their frequency with the most "
+          "similar shape (MAC), or without shapes with the nearest frequency")
           .by_default("none"),
       key::composed("rayleigh", Key::Form::tables, kind::number,
                     {key::number("frequency", kind::frequency, "frequency of a pair").above_zero(),
