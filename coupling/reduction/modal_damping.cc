@@ -16,14 +16,19 @@ namespace gestell::coupling
 namespace
 {
 
-/// Of the modes V [n x p] of a frame, ascending.
+/// Of the modes V [n x p] of a frame, ascending; outputs with inertia receive it as well.
 fem::ModalDamping modal_operator(fem::FrameMatrices &frame, const Eigen::MatrixXd &V, const Eigen::VectorXd &omega)
 {
   ModesAtPoints modes{omega, frame.picture.points};
   if (frame.picture.displacement.rows() > 0)
     modes.shapes = frame.picture.displacement * V;
-  return {symmetric_product(frame.M, V), modal_dampers(matched(frame.modal_damping_ratio, modes, frame.statements),
-                                                       omega, V.transpose() * symmetric_product(frame.B, V))};
+  fem::ModalDamping damping{symmetric_product(frame.M, V),
+                            modal_dampers(matched(frame.modal_damping_ratio, modes, frame.statements), omega,
+                                          V.transpose() * symmetric_product(frame.B, V))};
+  for (fem::FrameOutput &output : frame.outputs) // like inertia, these forces act on masses
+    if (output.on_a.size() > 0)
+      output.on_v += damping.Z * damping.d.cwiseProduct(V.transpose() * output.on_a);
+  return damping;
 }
 
 } // namespace

@@ -12,21 +12,21 @@
 namespace gestell::coupling
 {
 
-/// @throws std::invalid_argument for a buckling factor of 1 or less.
-inline void require_below_buckling(double lambda, const std::string &place)
-{
-  if (!(lambda > 1.))
-    throw std::invalid_argument((place.empty() ? "prestress" : place) +
-                                ": prestress beyond buckling: the frame buckles at " + rounded(lambda) +
-                                " times these loads, and needs more than 1; reduce them or their 'factor', or stiffen "
-                                "the frame");
-}
-
 enum class BucklingValue
 {
   exact,
   upper_bound
 };
+
+/// @throws std::invalid_argument for a buckling factor of 1 or less.
+inline void require_below_buckling(double lambda, const std::string &place, BucklingValue value = BucklingValue::exact)
+{
+  if (!(lambda > 1.))
+    throw std::invalid_argument((place.empty() ? "prestress" : place) +
+                                ": prestress beyond buckling: the frame buckles at " + rounded(lambda) +
+                                " times these loads" + (value == BucklingValue::upper_bound ? " or less" : "") +
+                                ", and needs more than 1; reduce them or their 'factor', or stiffen the frame");
+}
 
 /// Adds a buckling factor, infinite if tension dominates: a statement, and the least of them as a fact.
 /// @param where  "", or " with the interfaces fixed".

@@ -83,8 +83,10 @@ std::vector<double> heights(const Plane &plane, const QuadraticMesh &mesh)
 /// Part of the cells above a plane, and their section.
 struct Slice
 {
-  double   volume = 0., above = 0., area = 0.;
-  Vector3d moment = Vector3d::Zero(), area_moment = Vector3d::Zero(); // int x dV above, int x dA
+  double          volume = 0., above = 0., area = 0.;
+  Vector3d        moment = Vector3d::Zero(), area_moment = Vector3d::Zero(); // int x dV above, int x dA
+  Vector3d        origin = Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero(); // int (x - x_o) (x - x_o)^T dV above
 
   void add(const Plane &plane, std::array<Vector3d, 4> x);
 
@@ -94,6 +96,9 @@ private:
     const double V = sign * std::abs((b - a).cross(c - a).dot(d - a)) / 6.;
     above += V;
     moment += V * (a + b + c + d) / 4.;
+    Eigen::Matrix<double, 3, 5> r;
+    r << a - origin, b - origin, c - origin, d - origin, a + b + c + d - 4. * origin;
+    second += V / 20. * r * r.transpose();
   }
   void cut(const Vector3d &a, const Vector3d &b, const Vector3d &c)
   {
@@ -272,33 +277,54 @@ private:
   throw std::invalid_argument(message.str());
 }
 
-/// int rho w dV above the plane less sum_a m_a v_a of the nodes of a cell: its weight not among the loads of the rows.
-Motions weight_between(const Plane &plane, const MotionsAbove &motions, const QuadraticMesh &mesh, int cell,
-                       const Eigen::VectorXd &nodal)
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 6>; // [3 nodes of a cell x 6]
+
+/// int rho w N_a dV above the plane less sum_b M_ab v_b: the mass of a cell of which weight and inertia are not among
+/// the loads of the rows.
+Rows mass_between(const Plane &plane, const MotionsAbove &motions, const QuadraticMesh &mesh, int cell,
+                  const Eigen::MatrixXd &M)
 {
-  Slice slice;
+  const int  n     = mesh.n_nodes_of(cell);
+  const auto point = [&](int a) { return vector_of(mesh.points[mesh.nodes(cell)[a]]); };
+  Slice      slice;
+  for (int a = 0; a < n; ++a)
+    slice.origin += point(a) / n;
   add(slice, plane, mesh, cell);
-  Motions sum = Motions::Zero();
-  if (slice.above > 0. && slice.above < slice.volume)
+  const bool      whole = slice.above >= slice.volume, part = slice.above > 0. && !whole;
+  Rows            moved(3 * n, 6), rows                     = Rows::Zero(3 * n, 6);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (int a = 0; a < n; ++a)
   {
-    const Vector3d x = slice.moment / slice.above;
-    sum              = slice.above / slice.volume * nodal.sum() * motions.w({x[0], x[1], x[2]});
+    const int node             = mesh.nodes(cell)[a];
+    moved.middleRows<3>(3 * a) = -motions.v(node);
+    if (whole)
+      moved.middleRows<3>(3 * a) += motions.w(mesh.points[node]);
+    spread += (point(a) - slice.origin) * (point(a) - slice.origin).transpose();
   }
-  for (Eigen::Index a = 0; a < nodal.size(); ++a)
+  const Vector3d        first   = slice.moment - slice.above * slice.origin;
+  const Eigen::Matrix3d inverse = spread.inverse();
+  const auto            w       = [&](const Vector3d &x) { return motions.w({x[0], x[1], x[2]}); };
+  for (int a = 0; a < n; ++a)
   {
-    const int node = mesh.nodes(cell)[a];
-    if (slice.above >= slice.volume)
-      sum += nodal[a] * motions.w(mesh.points[node]);
-    sum -= nodal[a] * motions.v(node);
+    for (int b = 0; b < n; ++b)
+      rows.middleRows<3>(3 * a) += M(a, b) * moved.middleRows<3>(3 * b);
+    if (!part)
+      continue;
+    // int w phi dV, phi = 1/n + slope . (x - x_o) the share of the node in a linear field
+    const Vector3d slope = inverse * (point(a) - slice.origin);
+    const Motions  at    = w(slice.origin);
+    rows.middleRows<3>(3 * a) +=
+        M.sum() / slice.volume *
+        ((slice.above / n + slope.dot(first)) * at + w(slice.origin + first / n + slice.second * slope) - at);
   }
-  return sum;
+  return rows;
 }
 
 } // namespace
 
 std::vector<FrameOutput> cut_forces(const CutSpecification &cut, const QuadraticMesh &mesh,
                                     const CellMaterials &materials, const AffineConstraints &affine,
-                                    const std::vector<int> &supported, double rayleigh_stiffness)
+                                    const std::vector<int> &supported, const std::array<double, 2> &rayleigh)
 {
   const Plane               plane  = plane_of(cut);
   const Eigen::Matrix3d     axes   = axes_of(cut, plane.normal);
@@ -308,7 +334,7 @@ std::vector<FrameOutput> cut_forces(const CutSpecification &cut, const Quadratic
 
   bool                                divides = false;
   Motions                             weight  = Motions::Zero();
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Eigen::Triplet<double>> entries, inert;
   CellValues                          values(mesh, CellPoints::rule);
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
@@ -326,29 +352,41 @@ std::vector<FrameOutput> cut_forces(const CutSpecification &cut, const Quadratic
         nodes, nodes + n, [&](int node) { return (plane.height(vector_of(mesh.points[node])) > 0.) != upper; });
     if (!deforms && !crossed)
       continue;
-    weight +=
-        weight_between(plane, motions, mesh, cell, mass_matrix(values.of(cell), materials[cell].rho).rowwise().sum());
+    const auto add_to = [&](std::vector<Eigen::Triplet<double>> &all, const Rows &rows)
+    {
+      for (int i = 0; i < 3 * n; ++i)
+        for (int k = 0; k < 6; ++k)
+          all.emplace_back(3 * nodes[i / 3] + i % 3, k, rows(i, k));
+    };
+    const Rows between = mass_between(plane, motions, mesh, cell, mass_matrix(values.of(cell), materials[cell].rho));
+    add_to(inert, -between);
+    for (int a = 0; a < n; ++a)
+      weight += between.middleRows<3>(3 * a);
     if (!deforms)
       continue;
     divides = true;
-    Eigen::Matrix<double, Eigen::Dynamic, 6> v(3 * n, 6); // of an upper cell less w, without stress
+    Rows v(3 * n, 6); // of an upper cell less w, without stress
     for (int a = 0; a < n; ++a)
       v.middleRows<3>(3 * a) = motions.v(nodes[a]) - double(upper) * motions.w(mesh.points[nodes[a]]);
-    const Eigen::Matrix<double, Eigen::Dynamic, 6> row = tangent_stiffness(values.of(cell), mesh, materials, cell) * v;
-    for (int i = 0; i < 3 * n; ++i)
-      for (int k = 0; k < 6; ++k)
-        entries.emplace_back(3 * nodes[i / 3] + i % 3, k, row(i, k));
+    add_to(entries, tangent_stiffness(values.of(cell), mesh, materials, cell) * v);
   }
   if (!divides)
     refuse(cut, plane, mesh);
-  Eigen::SparseMatrix<double> rows(affine.n_displacements(), 6);
-  rows.setFromTriplets(entries.begin(), entries.end());
+  const auto gathered = [&](const std::vector<Eigen::Triplet<double>> &of, int k)
+  {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(affine.n_displacements());
+    for (const auto &entry : of)
+      if (entry.col() == k)
+        row[entry.row()] += entry.value();
+    return affine.gather(row);
+  };
   std::vector<FrameOutput> outputs;
   for (int k = 0; k < 6; ++k)
   {
-    const Eigen::VectorXd on_q = affine.gather(Eigen::VectorXd(rows.col(k)));
+    const Eigen::VectorXd on_q = gathered(entries, k), on_a = gathered(inert, k);
     const auto &[ending, unit] = section_components[k];
-    outputs.push_back({"cut." + cut.name + ending, unit, on_q, rayleigh_stiffness * on_q, weight.col(k)});
+    outputs.push_back(
+        {"cut." + cut.name + ending, unit, on_q, rayleigh[1] * on_q + rayleigh[0] * on_a, weight.col(k), on_a});
   }
   return outputs;
 }

@@ -6,6 +6,7 @@
 #include "fem/values/frame_matrices.h"
 #include "fem/values/frame_specification.h"
 
+#include <array>
 #include <vector>
 
 namespace gestell::fem
@@ -24,18 +25,22 @@ namespace gestell::fem
  *
  * Above are the cells with the centroid on the side of n.  w has no energy in them, so F is the sum of w . f over the
  * loads f on the nodes above: exact equilibrium for any mesh and plane.  Nodes of tied faces follow the nodes they are
- * tied to.  The weight between these nodes and the plane is added, so that at rest F is due to the weight above the
- * plane; its inertia is not.  It and the centroid are exact for cells with plane faces.  Rayleigh damping adds beta C
- * u' in the same way; alpha M u', like inertia, is external and not an internal force; modal damping ratios have no
- * force in cells.  A rigid interface or a support that reaches to both sides carries force that is not included.
- * About a prestressed state moments also contain the stresses above times their displacement relative to the section.
+ * tied to.  Weight, inertia and alpha M u' of the mass between these nodes and the plane are added,
  *
- * @param supported           nodes of foundations.
- * @param rayleigh_stiffness  beta [s] of all cells.
+ *     F += sum_i h_i . (g - u''_i - alpha u'_i),    h_i = int rho w N_i dV above the plane - (M v)_i,
+ *
+ * so that F is due to all of the mass above the plane.  In the part of a cell that the plane divides, u'' is replaced
+ * by the linear field nearest to its nodal values: exact for rigid motions.  h and the centroid are exact for cells
+ * with plane faces.  Rayleigh damping adds beta C u' as it adds C u; modal damping ratios have no force in cells.  A
+ * rigid interface or a support that reaches to both sides carries force that is not included.  About a prestressed
+ * state moments also contain the stresses above times their displacement relative to the section.
+ *
+ * @param supported  nodes of foundations.
+ * @param rayleigh   alpha [1/s] and beta [s] of all cells.
  * @throws std::invalid_argument for a zero normal, a first direction along it and a plane that does not cut the frame.
  */
 std::vector<FrameOutput> cut_forces(const CutSpecification &cut, const QuadraticMesh &mesh,
                                     const CellMaterials &materials, const AffineConstraints &affine,
-                                    const std::vector<int> &supported, double rayleigh_stiffness);
+                                    const std::vector<int> &supported, const std::array<double, 2> &rayleigh);
 
 } // namespace gestell::fem

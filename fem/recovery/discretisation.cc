@@ -242,8 +242,8 @@ Discretisation discretise(const Mesh &mesh, const FrameSpecification &specificat
   for (const SupportedPatch &one : supports)
     supported.insert(supported.end(), one.patch.nodes.begin(), one.patch.nodes.end());
   for (const CutSpecification &cut : specification.cuts)
-    for (FrameOutput &output :
-         cut_forces(cut, quadratic, materials, affine, supported, specification.rayleigh_stiffness))
+    for (FrameOutput &output : cut_forces(cut, quadratic, materials, affine, supported,
+                                          {specification.rayleigh_mass, specification.rayleigh_stiffness}))
       frame.outputs.push_back(std::move(output));
 
   Eigen::VectorXd load;

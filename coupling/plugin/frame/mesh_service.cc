@@ -201,16 +201,10 @@ public:
     PartsCall    call{frame.rayleigh_mass, frame.rayleigh_stiffness, frame.place,
                    int(std::min(fitting, double(jobs_requested()))), progress};
     if (frame.prestress)
-    {
-      call.prestress      = frame.prestress->place.empty() ? "prestress" : frame.prestress->place;
-      const int n_parts   = parted->parts.size();
-      discretisation      = discretised_in_parts(discretisation, parted->parts, mesh, frame, call);
-      const auto of_parts = parted->memory;
-      parted.emplace(PartedMesh{discretisation.mesh_error->parts(n_parts, frame.place), of_parts});
-    }
-    ReducedModel reduced = reduce_in_parts(discretisation.matrices, parted->parts, options, call);
-    if (frame.prestress)
-      add_buckling_bound(reduced, discretisation, parted->parts, call.prestress);
+      call.prestress = frame.prestress->place.empty() ? "prestress" : frame.prestress->place;
+    ReducedModel reduced      = frame.prestress
+                                    ? reduce_prestressed_in_parts(discretisation, parted->parts, mesh, frame, options, call)
+                                    : reduce_in_parts(discretisation.matrices, parted->parts, options, call);
     discretisation.matrices.C = fem::SparseMatrix();
     add_mesh_statement(reduced, discretisation, mesh, progress);
     return std::move(reduced.frame);

@@ -110,6 +110,18 @@ void balance(const StiffnessFactor &inverse, const fem::FrameMatrices &linear, c
   fem::add(stressed.matrices.C, at(q1, stressed.balance, KR.rows()));
 }
 
+/// T^T K T of the geometric stiffness of nodes and parts.
+MatrixXd reduced_geometric(const MatrixXd &T, const fem::Discretisation &stressed, const fem::CellParts &parts)
+{
+  MatrixXd K = T.transpose() * (stressed.geometric * T);
+  for (int p = 0; p < parts.size(); ++p)
+  {
+    const MatrixXd own = T(parts.coordinates(p), Eigen::all);
+    K += own.transpose() * (parts.geometric(p) * own);
+  }
+  return K;
+}
+
 } // namespace
 
 fem::Discretisation discretised(const fem::Mesh &mesh, const fem::FrameSpecification &specification,
@@ -146,29 +158,38 @@ fem::Discretisation discretised(const fem::Mesh &mesh, const fem::FrameSpecifica
   return stressed;
 }
 
-fem::Discretisation discretised_in_parts(const fem::Discretisation &linear, const fem::CellParts &parts,
-                                         const fem::Mesh &mesh, const fem::FrameSpecification &specification,
+ReducedModel reduce_prestressed_in_parts(fem::Discretisation &frame, const fem::CellParts &parts, const fem::Mesh &mesh,
+                                         const fem::FrameSpecification &specification, const ReductionOptions &options,
                                          const PartsCall &call)
 {
-  require_loads(linear, *specification.prestress);
-  return fem::discretise_for_parts(mesh, specification,
-                                   deflection_in_parts(linear.matrices, parts, linear.prestress_load, call));
-}
-
-void add_buckling_bound(ReducedModel &reduced, const fem::Discretisation &frame, const fem::CellParts &parts,
-                        const std::string &place)
-{
-  const MatrixXd &T = reduced.basis.T;
-  MatrixXd        K = T.transpose() * (frame.geometric * T);
-  for (int p = 0; p < parts.size(); ++p)
+  require_loads(frame, *specification.prestress);
+  const VectorXd q0            = deflection_in_parts(frame.matrices, parts, frame.prestress_load, call);
+  frame.matrices.stress        = {}; // room for the second discretisation
+  fem::Discretisation stressed = fem::discretise_for_parts(mesh, specification, q0);
+  const auto          about    = stressed.mesh_error->parts(parts.size(), specification.place);
+  const auto          bound    = [&](const ReducedModel &reduced, double contained)
   {
-    const MatrixXd own = T(parts.coordinates(p), Eigen::all);
-    K += own.transpose() * (parts.geometric(p) * own);
+    const MatrixXd K      = reduced_geometric(reduced.basis.T, stressed, about);
+    const double   lambda = dense_buckling_factor(reduced.frame.C - contained * K, K);
+    require_below_buckling(lambda, call.prestress, BucklingValue::upper_bound);
+    return lambda;
+  };
+  ReducedModel reduced;
+  try
+  {
+    reduced = reduce_in_parts(stressed.matrices, about, options, call);
   }
-  const double lambda = dense_buckling_factor(reduced.frame.C - K, K);
-  require_below_buckling(lambda, place);
-  add_buckling(lambda, BucklingValue::upper_bound, " in the reduced DOFs", reduced.frame.statements,
+  catch (const std::invalid_argument &) // which knows no factor
+  {
+    PartsCall unstressed = call;
+    unstressed.prestress.clear();
+    bound(reduce_in_parts(frame.matrices, parts, options, unstressed), 0.);
+    throw;
+  }
+  add_buckling(bound(reduced, 1.), BucklingValue::upper_bound, " in the reduced DOFs", reduced.frame.statements,
                reduced.frame.facts);
+  frame = std::move(stressed);
+  return reduced;
 }
 
 } // namespace gestell::coupling

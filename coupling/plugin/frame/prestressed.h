@@ -30,15 +30,17 @@ namespace gestell::coupling
 fem::Discretisation discretised(const fem::Mesh &mesh, const fem::FrameSpecification &specification,
                                 const std::string &factor, const Progress &progress);
 
-/// The same of a frame in parts, without its sums over cells; C and M of its parts follow from its mesh_error.
-/// @param linear, parts  without prestress.
-fem::Discretisation discretised_in_parts(const fem::Discretisation &linear, const fem::CellParts &parts,
-                                         const fem::Mesh &mesh, const fem::FrameSpecification &specification,
+/**
+ * Reduces a frame in parts about its prestressed state.  A statement gives the buckling factor in the reduced
+ * coordinates, an upper bound (Rayleigh, Ritz).
+ *
+ * @param frame  without prestress and without its sums over cells; then about the prestressed state.
+ * @param parts  of this frame, without prestress.
+ * @throws std::invalid_argument as discretised(), beyond buckling with the factor in the reduced coordinates of the
+ *         frame without prestress; else as reduce_in_parts().
+ */
+ReducedModel reduce_prestressed_in_parts(fem::Discretisation &frame, const fem::CellParts &parts, const fem::Mesh &mesh,
+                                         const fem::FrameSpecification &specification, const ReductionOptions &options,
                                          const PartsCall &call);
-
-/// Adds the buckling factor of a frame in parts: that of its reduced coordinates, an upper bound (Rayleigh, Ritz).
-/// @param frame, parts  about the prestressed state.
-void add_buckling_bound(ReducedModel &reduced, const fem::Discretisation &frame, const fem::CellParts &parts,
-                        const std::string &place);
 
 } // namespace gestell::coupling

@@ -198,14 +198,59 @@ Sparse columns_of(const Sparse &A, const std::vector<int> &held)
   return result;
 }
 
-/// Psi^T D V and V^T D V below each other, [(n1+m) x m].
-MatrixXd damping_of_modes(const PartOfFrame &part, const SparseCholesky &factor, const Sparse &C_1, const MatrixXd &V)
+/// A part with its modes.
+struct PartSpace
 {
-  MatrixXd load = part.damping * V, result(Index(part.held.size()) + V.cols(), V.cols());
-  result << load(part.held, Eigen::all), V.transpose() * load;
-  hold(load, part.held);
-  factor.solve_in_place(load);
-  result.topRows(Index(part.held.size())) -= C_1.transpose() * load;
+  const PartOfFrame    &part;
+  const SparseCholesky &factor;
+  const Sparse         &C_1; // columns at the interface
+  const MatrixXd       &V;
+  const VectorXd       &omega;
+
+  /// Psi^T X and V^T X below each other [(n1+m) x k] of loads or rows [n_p x k].
+  MatrixXd project(MatrixXd X) const
+  {
+    MatrixXd result(C_1.cols() + V.cols(), X.cols());
+    result << X(part.held, Eigen::all), V.transpose() * X;
+    hold(X, part.held);
+    factor.solve_in_place(X);
+    result.topRows(C_1.cols()) -= C_1.transpose() * X;
+    return result;
+  }
+  /// C22^-1 X - V22 diag(1/omega^2) V22^T X of loads on the interior.
+  MatrixXd answer_beyond_modes(MatrixXd X) const
+  {
+    const MatrixXd modal = omega.cwiseAbs2().cwiseInverse().asDiagonal() * (V.transpose() * X);
+    factor.solve_in_place(X);
+    return X - V * modal;
+  }
+};
+
+/// CondensedPart::forces.
+MatrixXd condensed_forces(const PartSpace &space)
+{
+  const PartOfFrame &part = space.part;
+  const Index        n = space.C_1.cols() + space.V.cols(), k = Index(part.forces.size());
+  MatrixXd           result(3 * n + 3, k);
+  const auto         inside = [&](VectorXd fem::FrameOutput::*row, Index first, Index count)
+  {
+    MatrixXd rows = MatrixXd::Zero(part.sums.M.rows(), count);
+    for (Index j = 0; j < count; ++j)
+      if (const VectorXd &own = part.forces[std::size_t(first + j)].*row; own.size() > 0)
+        rows.col(j) = own;
+    hold(rows, part.held);
+    return rows;
+  };
+  constexpr Index together = 16; // right-hand sides
+  for (Index first = 0; first < k; first += together)
+  {
+    const Index    count = std::min(together, k - first);
+    const MatrixXd on_q = inside(&fem::FrameOutput::on_q, first, count), w = space.answer_beyond_modes(on_q),
+                   Mw = part.sums.M * w, Bw = part.alpha * Mw + part.damping * w;
+    result.middleCols(first, count) << space.project(on_q),
+        space.project(inside(&fem::FrameOutput::on_v, first, count) - Bw),
+        space.project(inside(&fem::FrameOutput::on_a, first, count) - Mw), part.load.transpose() * w;
+  }
   return result;
 }
 
@@ -251,39 +296,41 @@ CondensedPart condense(PartOfFrame part, int n_modes)
   result.M_1V           = columns_of(M, part.held).transpose() * result.V;
   result.M_1V -= (C_1.transpose() * result.V) * square.cwiseInverse().asDiagonal();
 
-  MatrixXd deflection = part.load;
-  hold(deflection, part.held);
-  result.load.resize(n1 + n_modes, part.load.cols());
-  result.load.bottomRows(n_modes) = result.V.transpose() * deflection;
-  factor.solve_in_place(deflection);
-  result.load.topRows(n1) = -(C_1.transpose() * deflection);
-  const bool damped       = part.damping.nonZeros() > 0;
-  double     tau          = 0.;
+  const PartSpace space{part, factor, C_1, result.V, result.omega};
+  MatrixXd        load = part.load;
+  hold(load, part.held);
+  result.load       = space.project(std::move(load));
+  result.forces     = condensed_forces(space);
+  const bool damped = part.damping.nonZeros() > 0;
+  double     tau    = 0.;
   MatrixXd   of_modes;
   if (damped)
   {
-    constexpr double second_order = 1e-4; // of D*: the relative error of its difference
-    of_modes                      = damping_of_modes(part, factor, C_1, result.V);
-    tau                           = second_order / std::max(largest_against_stiffness(part, factor), 1e-300);
+    constexpr double step = 1e-4; // of the stiffness: the relative error of D* is twice its square
+    of_modes              = space.project(part.damping * result.V);
+    tau                   = step / std::max(largest_against_stiffness(part, factor), 1e-300);
   }
   factor.release();
 
-  // Rounding of S counts omega_mesh^2 / sigma times in M*: 1e-7 with this share of the square of the highest mode.
-  constexpr double share        = 1e-4;
-  result.sigma                  = share * square[n_modes - 1];
+  // Rounding of S counts omega_mesh^2 / sigma times in M*: below 1e-7 with this share of the square of the highest
+  // mode.
+  constexpr double share        = 3e-4;
+  const double     sigma        = share * square[n_modes - 1];
+  result.sigma                  = 2. * share * sigma;
   const Sparse         pattern  = whole ? Sparse() : Sparse(Sparse(C + M) + part.damping);
   const SparseCholesky analysis = whole ? std::move(factor) : SparseCholesky::without_numbers(pattern, part.held);
   const FrontSelection all      = with_border(analysis.fronts(), whole ? C : pattern, part.held);
   result.C                      = condensed(all, part, M, 0.);
   const auto derivative         = [&](const Sparse &X, double step)
   {
-    MatrixXd S = condensed(all, part, X, step);
-    S -= result.C;
-    S /= step;
+    MatrixXd S = 4. * condensed(all, part, X, step); // of second order
+    S -= condensed(all, part, X, 2. * step);
+    S -= 3. * result.C;
+    S /= 2. * step;
     return S;
   };
-  result.M              = derivative(M, result.sigma);
-  const VectorXd weight = (result.sigma / (square.array() + result.sigma)).sqrt();
+  result.M              = derivative(M, sigma);
+  const VectorXd weight = sigma * (0.5 * (square.array() + sigma) * (square.array() + 2. * sigma)).rsqrt();
   result.M.selfadjointView<Eigen::Lower>().rankUpdate(MatrixXd(result.M_1V * weight.asDiagonal()));
   if (damped)
   {
@@ -335,11 +382,9 @@ RecoveredPart recover(PartOfFrame part, const CondensedPart &condensed, const Ma
   result.beyond = psi(beyond.topRows(n1)) + condensed.V * beyond.bottomRows(m);
   if (beyond.cols() == 0)
     return result;
-  MatrixXd deflection = part.load;
-  hold(deflection, part.held);
-  const MatrixXd kept = flexibility.asDiagonal() * (condensed.V.transpose() * deflection);
-  factor.solve_in_place(deflection);
-  result.beyond += deflection - condensed.V * kept;
+  MatrixXd load = part.load;
+  hold(load, part.held);
+  result.beyond += PartSpace{part, factor, C_1, condensed.V, condensed.omega}.answer_beyond_modes(std::move(load));
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/assembly/cell_parts.h"
+#include "fem/values/frame_matrices.h"
 #include "fem/values/sparse_matrix.h"
 
 #include <Eigen/Core>
@@ -18,11 +19,13 @@ struct PartOfFrame
   fem::PartMatrices sums; ///< of cells, foundations and masses
   /// [n_p x n_p] damping that differs from alpha M + beta C: foundations, less the share of Rayleigh that they and
   /// masses do not have.
-  fem::SparseMatrix damping;
-  Eigen::MatrixXd   load;      // [n_p x 3] of a unit acceleration
-  std::vector<int>  held;      ///< interface: coordinates of other parts or of the mechanism, ascending
-  std::string       name;      ///< "part 2 of 3", for messages
-  std::string       prestress; ///< place of the loads that sums.C is about, or empty
+  fem::SparseMatrix             damping;
+  double                        alpha = 0.; ///< [1/s] of Rayleigh damping
+  Eigen::MatrixXd               load;       // [n_p x 3] of a unit acceleration
+  std::vector<fem::FrameOutput> forces;     ///< of supports and sections, of which the interior counts
+  std::vector<int>              held;       ///< interface: coordinates of other parts or of the mechanism, ascending
+  std::string                   name;       ///< "part 2 of 3", for messages
+  std::string                   prestress;  ///< place of the loads that sums.C is about, or empty
   /// Assembles sums.C again, which makes room for other memory meanwhile.
   std::function<fem::SparseMatrix()> stiffness;
 };
@@ -33,18 +36,21 @@ struct PartOfFrame
  *
  *     S(lambda) = C* - lambda M* - lambda^2 sum m_j m_j^T / (omega_j^2 - lambda),
  *
- * so that with the retained modes  M* = (S(-sigma) - S(0)) / sigma + sigma sum m_j m_j^T / (omega_j^2 + sigma)  lacks
- * sigma F at most, F the flexibility of the truncated modes: docs/theory/substructures.md (9).
+ * so that three eliminations and the retained modes give M* except for a small multiple of the flexibility of the
+ * truncated modes: docs/theory/substructures.md (9).
  */
 struct CondensedPart
 {
-  Eigen::MatrixXd C, M;       // [n1 x n1], lower triangles: Psi^T C Psi, Psi^T M Psi
-  Eigen::MatrixXd M_1V;       // [n1 x m]  Psi^T M V, column j is m_j
-  Eigen::MatrixXd damping;    // [(n1+m) x (n1+m)] of PartOfFrame::damping, or empty: none
-  Eigen::MatrixXd load;       // [(n1+m) x 3] of the interior
+  Eigen::MatrixXd C, M;    // [n1 x n1], lower triangles: Psi^T C Psi, Psi^T M Psi
+  Eigen::MatrixXd M_1V;    // [n1 x m]  Psi^T M V, column j is m_j
+  Eigen::MatrixXd damping; // [(n1+m) x (n1+m)] of PartOfFrame::damping, or empty: none
+  Eigen::MatrixXd load;    // [(n1+m) x 3] of the interior
+  /// Column k: on_q, on_v, on_a of PartOfFrame::forces [n1+m each] and under_acceleration [3], with the static answer
+  /// of the part beyond its modes, docs/theory/reduction.md (7a).
+  Eigen::MatrixXd forces;
   Eigen::MatrixXd V;          // [n_p x m], V^T M V = E, zero at the interface
   Eigen::VectorXd omega;      // [m] rad/s, ascending
-  double          sigma = 0.; // [1/s^2]
+  double          sigma = 0.; ///< [1/s^2] M* lacks sigma F at most, F the flexibility of the truncated modes
 };
 
 /// Number of fixed-interface modes below a frequency [rad/s].

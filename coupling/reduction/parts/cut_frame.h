@@ -26,6 +26,8 @@ public:
   const PartInterface &interface() const { return interface_; }
   std::string          name(int p) const { return "part " + std::to_string(p + 1) + " of " + std::to_string(size()); }
   PartOfFrame          part(int p) const;
+  /// Positions in force_outputs() of those with an entry within a part.
+  std::vector<std::size_t> forces(int p) const;
 
 private:
   fem::PartMatrices sums(int p) const;
@@ -35,6 +37,7 @@ private:
   const PartsCall            &call_;
   PartInterface               interface_;
   Eigen::SparseMatrix<double> damping_; // beside alpha M + beta C
+  std::vector<std::size_t>    forces_;  // among the outputs of the frame
 };
 
 /// Calls work(p) for every part in a process of its own, whose memory goes back to the system.

@@ -58,6 +58,7 @@ Recipe recipe_of(PartOfFrame &part, const PartModes &modes)
   };
   swap();
   frame.acceleration_load = part.load;
+  frame.outputs           = part.forces;
   Recipe recipe           = coupling::recipe_of(frame, options);
   swap();
   recipe.push_back(
@@ -80,6 +81,7 @@ std::string image_of(CondensedPart part, const FrameOrigin &origin)
   image.write("M_1V", part.M_1V);
   image.write("damping", part.damping);
   image.write("load", part.load);
+  image.write("forces", part.forces);
   const auto move = [&](const std::string &name, MatrixXd &A)
   {
     image.write(name, A);
@@ -132,6 +134,7 @@ CondensedPart read_part(const std::string &name, PartContent content)
   part.M_1V      = file.read_matrix("M_1V");
   part.damping   = file.read_matrix("damping");
   part.load      = file.read_matrix("load");
+  part.forces    = file.read_matrix("forces");
   return part;
 }
 

@@ -8,6 +8,7 @@
 #include "coupling/reduction/parts/part_file.h"
 #include "coupling/reduction/parts/part_interface.h"
 #include "coupling/reduction/projection.h"
+#include "coupling/reduction/shapes/interface_statics.h"
 #include "fem/mesh/memory_estimate.h"
 #include "fem/values/available_memory.h"
 #include "fem/values/number_text.h"
@@ -93,6 +94,12 @@ fem::FrameMatrices on_interface(const fem::FrameMatrices &frame, const PartInter
   joined.n_cells           = frame.n_cells;
   joined.notes             = frame.notes;
   joined.statements        = frame.statements;
+  for (const std::size_t k : force_outputs(frame.outputs))
+  {
+    joined.outputs.push_back(frame.outputs[k]);
+    for (VectorXd *row : {&joined.outputs.back().on_q, &joined.outputs.back().on_v, &joined.outputs.back().on_a})
+      *row = row->size() > 0 ? VectorXd(taken(*row)) : VectorXd::Zero(n);
+  }
   return joined;
 }
 
@@ -113,6 +120,22 @@ Joined condense_all(const CutFrame &cut, const PartsCall &call, const ReductionO
       cut, call, "", [&](int p) { return stored_part(cut.part(p), modes_of_parts(options), call.place, folder); },
       [&](int p, std::string file) { joined.files[p] = std::move(file); });
   return joined;
+}
+
+/// Adds CondensedPart::forces to those of the joined parts.
+void add_forces(const MatrixXd &forces, const std::vector<std::size_t> &which, const std::vector<int> &places,
+                std::vector<fem::FrameOutput> &outputs)
+{
+  const Index n = Index(places.size());
+  for (std::size_t k = 0; k < which.size(); ++k)
+  {
+    const auto        own    = forces.col(Index(k));
+    fem::FrameOutput &output = outputs[which[k]];
+    output.on_q(places) += own.head(n);
+    output.on_v(places) += own.segment(n, n);
+    output.on_a(places) += own.segment(2 * n, n);
+    output.under_acceleration += own.tail<3>();
+  }
 }
 
 fem::FrameMatrices join(const CutFrame &cut, const fem::FrameMatrices &frame, const PartsCall &call, Joined &joined)
@@ -137,6 +160,7 @@ fem::FrameMatrices join(const CutFrame &cut, const fem::FrameMatrices &frame, co
     const CondensedPart part = read_part(joined.files[p], PartContent::sums);
     sums.add(part, joined.places[p]);
     matrices.acceleration_load(joined.places[p], Eigen::all) += part.load;
+    add_forces(part.forces, cut.forces(p), joined.places[p], matrices.outputs);
   }
   sums.give(matrices, call.alpha, call.beta);
   return matrices;
@@ -223,12 +247,15 @@ ReducedModel completed(ReducedModel reduced, const fem::FrameMatrices &frame, Re
   known.B.swap(whole.B);
   known.C.swap(whole.C);
   known.translations_load = std::move(whole.translations_load);
-  known.outputs           = std::move(whole.outputs);
-  known.points            = std::move(whole.points);
-  known.triangles         = std::move(whole.triangles);
-  known.displacement      = std::move(whole.displacement);
-  known.stress            = std::move(whole.stress);
-  known.n_full            = whole.n_full;
+  const auto forces       = force_outputs(frame.outputs);
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    whole.outputs[forces[k]] = std::move(known.outputs[k]);
+  known.outputs      = std::move(whole.outputs);
+  known.points       = std::move(whole.points);
+  known.triangles    = std::move(whole.triangles);
+  known.displacement = std::move(whole.displacement);
+  known.stress       = std::move(whole.stress);
+  known.n_full       = whole.n_full;
   return {std::move(known), std::move(basis), std::move(recovered.beyond), std::move(reduced.factor)};
 }
 
@@ -339,9 +366,9 @@ PartsMemory memory_of_parts(const fem::CellParts &parts, const fem::FrameMatrice
   const double        libraries = fem::reduction_memory(0., compactness);
   // Measured for the press frame: 26 MB for 100 000 DOFs; and 60 columns of the basis.
   constexpr double bytes_per_coordinate = 260. + 60. * sizeof(double);
-  // Of a part: S, M*, a contribution and its sum in elimination.  Of the joined parts: C and M, both triangles with row
-  // numbers, M once more in the order of the factor, the factor and its work space; measured.
-  constexpr double bytes_per_pair = 4. * sizeof(double), bytes_per_joined_pair = 60.;
+  // Of a part: C*, M*, S, a contribution and its sum in elimination.  Of the joined parts: C and M, both triangles with
+  // row numbers, M once more in the order of the factor, the factor and its work space; measured.
+  constexpr double bytes_per_pair = 5. * sizeof(double), bytes_per_joined_pair = 60.;
   constexpr double of_files = 0.1 * 1024. * 1024. * 1024.; // libraries that children do not touch
   const double     mesh     = bytes_per_coordinate * double(frame.M.rows());
   PartsMemory      memory;

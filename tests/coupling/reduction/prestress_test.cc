@@ -247,16 +247,12 @@ protected:
   static coupling::ReducedFrame in_parts(const fem::Mesh &mesh, const fem::FrameSpecification &s, int n_parts,
                                          int n_modes)
   {
-    coupling::PartsCall call{s.rayleigh_mass, s.rayleigh_stiffness, s.place, 1, {}, s.prestress->place};
-    const auto          linear = fem::discretise_for_parts(mesh, s);
-    const auto          frame =
-        coupling::discretised_in_parts(linear, linear.mesh_error->parts(n_parts, s.place), mesh, s, call);
+    coupling::PartsCall        call{s.rayleigh_mass, s.rayleigh_stiffness, s.place, 1, {}, s.prestress->place};
+    fem::Discretisation        frame = fem::discretise_for_parts(mesh, s);
     const auto                 parts = frame.mesh_error->parts(n_parts, s.place);
     coupling::ReductionOptions options;
     options.n_modes = n_modes;
-    auto reduced    = coupling::reduce_in_parts(frame.matrices, parts, options, call);
-    coupling::add_buckling_bound(reduced, frame, parts, s.prestress->place);
-    return reduced.frame;
+    return coupling::reduce_prestressed_in_parts(frame, parts, mesh, s, options, call).frame;
   }
 };
 
@@ -288,8 +284,18 @@ TEST_F(PrestressInParts, IsRefusedBeyondBuckling)
 {
   const auto mesh = box_mesh({12, 1, 1}, {length, side, side});
   for (const double share : {1.1, 30.}) // of the frame, and of its parts with their interfaces fixed
-    expect_refusal([&] { in_parts(mesh, column(share * euler(2. * length)), 2, 10); },
-                   "scene.toml:5: prestress beyond buckling: ");
+  {
+    const auto        s       = column(share * euler(2. * length));
+    const std::string message = refusal([&] { in_parts(mesh, s, 2, 10); }),
+                      start   = "scene.toml:5: prestress beyond buckling: the frame buckles at ";
+    ASSERT_EQ(message.rfind(start, 0), 0u) << message;
+    EXPECT_NE(message.find(" times these loads or less, and needs more than 1"), std::string::npos) << message;
+    const std::string whole = refusal([&] { stressed(mesh, s); }); // about the same stresses, with all DOFs
+    ASSERT_EQ(whole.rfind(start, 0), 0u) << whole;
+    const double bound = std::stod(message.substr(start.size())), exact = std::stod(whole.substr(start.size()));
+    EXPECT_GT(bound, (1. - 1e-3) * exact); // of its digits
+    EXPECT_LT(bound, (1. + 1e-2) * exact);
+  }
   auto loose = column(1e4);
   loose.supports.clear();
   expect_refusal([&] { in_parts(mesh, loose, 2, 10); }, "scene.toml:5: the supports leave the frame free to move");

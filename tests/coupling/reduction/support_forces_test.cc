@@ -1,15 +1,19 @@
 // Forces of supports and through cuts of a reduced frame: Newton's law holds for every load, however few modes are
 // kept.
 
+#include "coupling/reduction/modal_damping.h"
+#include "coupling/reduction/parts/parted_frame.h"
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/box_mesh.h"
+#include "tests/support/frame_folder.h"
 #include "tests/support/statics.h"
 #include "tests/support/test.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/SparseLU>
 
 namespace gestell::test
 {
@@ -109,23 +113,57 @@ TEST(SupportForces, CutsAndStressesAtRestAreThoseOfTheFullFrame)
   }
 }
 
-/// Both bars with damping of every kind, and a plane between cells.
-std::vector<fem::FrameMatrices> damped_bars()
+class ForcesInParts : public FrameFolder
 {
-  std::vector<fem::FrameMatrices> frames;
+};
+
+/// A^-1 b
+VectorXd statics_of(const fem::SparseMatrix &A, const VectorXd &b)
+{
+  return Eigen::SparseLU<Eigen::SparseMatrix<double>>(A).solve(b);
+}
+
+struct Bar
+{
+  fem::Mesh               mesh;
+  fem::FrameSpecification specification;
+};
+
+const std::array<double, 3> heights = {{0.25, 0.75, 1.25}}; // between cells
+
+std::string plane_at(double height)
+{
+  return "at " + std::to_string(height);
+}
+
+/// Both bars with damping of every kind, and planes between cells.
+std::vector<Bar> damped_bars()
+{
+  std::vector<Bar> bars;
   for (const fem::Support &feet :
        {clamped("feet", {"z0"}), foundation("feet", {"z0"}, {{2e8, 3e8, 4e8}}, {{3e5, 1e5, 2e5}})})
   {
     auto specification       = free_steel();
     specification.supports   = {feet};
     specification.interfaces = {interface("top", {"z1"}, fem::InterfaceCoupling::average)};
-    specification.cuts       = {{"middle", {{0., 0., 0.75}}, {{0., 0., 1.}}, "", {{1., 0., 0.}}, {{0.1, 0.05, 0.7}}}};
+    for (const double z : heights)
+      specification.cuts.push_back(
+          {plane_at(z), {{0., 0., z}}, {{0., 0., 1.}}, "", {{1., 0., 0.}}, {{0.1, 0.05, 0.7}}});
     specification.rayleigh_mass       = 4.;
     specification.rayleigh_stiffness  = 1e-5;
     specification.modal_damping_ratio = 0.03;
-    frames.push_back(fem::discretise(box_mesh({{2, 2, 6}}, {{0.4, 0.3, 1.5}}), specification));
+    bars.push_back({box_mesh({{2, 2, 6}}, {{0.4, 0.3, 1.5}}), specification});
   }
-  return frames;
+  return bars;
+}
+
+coupling::ReducedModel model_of(const Bar &bar, const fem::FrameMatrices &frame, int modes, int n_parts)
+{
+  if (n_parts == 1)
+    return coupling::reduce_with_basis(frame, with_modes(modes));
+  const fem::Discretisation of = fem::discretise_for_parts(bar.mesh, bar.specification);
+  return coupling::reduce_in_parts(of.matrices, of.mesh_error->parts(n_parts, ""), with_modes(modes),
+                                   {bar.specification.rayleigh_mass, bar.specification.rayleigh_stiffness, ""});
 }
 
 /// A motion of a reduced frame that obeys its equations under forces at the interface.
@@ -154,9 +192,9 @@ double force_of(const ReducedFrame &frame, const std::string &name, const Motion
   return row.on_q.dot(motion.p) + row.on_v.dot(motion.v) + row.on_a.dot(motion.a) + row.under_acceleration.dot(g);
 }
 
-/// [n x 6] rigid motions N V1 V2 T M1 M2 of the coordinates above the plane, zero below.  The three coordinates of a
+/// [n x 6] rigid motions N V1 V2 T M1 M2 of the coordinates above a plane, zero below.  The three coordinates of a
 /// node follow each other.
-MatrixXd motions_above(const fem::FrameMatrices &frame)
+MatrixXd motions_above(const fem::FrameMatrices &frame, double height)
 {
   MatrixXd       R = frame.rigid_motions;
   const Vector3d centre(frame.centre.data()), about(0.1, 0.05, 0.7);
@@ -165,7 +203,7 @@ MatrixXd motions_above(const fem::FrameMatrices &frame)
   for (Eigen::Index i = 0; i < R.rows(); ++i)
   {
     if (R(i, 0) > 0.5)
-      above = centre[2] + R(i, 4) > 0.75 + 1e-9; // u = t + theta x r
+      above = centre[2] + R(i, 4) > height + 1e-9; // u = t + theta x r
     if (!above && !std::binary_search(top.begin(), top.end(), int(i)))
       R.row(i).setZero();
   }
@@ -179,34 +217,74 @@ MatrixXd motions_above(const fem::FrameMatrices &frame)
   return W;
 }
 
-TEST(SupportForces, AndSectionsBalanceTheInertiaOfEveryMotionWhateverModesAreOmitted)
+/// Two parts meet near the second plane, three near the others.
+TEST_F(ForcesInParts, AndSectionsBalanceTheInertiaOfEveryMotionWhateverModesAreOmitted)
 {
   const Vector3d g(1., -2., -9.81);
   std::srand(1);
-  for (const auto &frame : damped_bars())
-    for (const int modes : {0, 3, 10})
+  for (const Bar &bar : damped_bars())
+    for (const int n_parts : {1, 2, 3})
+      for (const int modes : {0, 3, 10})
+      {
+        SCOPED_TRACE(std::to_string(modes) + " modes, parts: " + std::to_string(n_parts));
+        const fem::FrameMatrices     frame  = fem::discretise(bar.mesh, bar.specification);
+        const coupling::ReducedModel model  = model_of(bar, frame, modes, n_parts);
+        const ReducedFrame          &few    = model.frame;
+        const MatrixXd              &T      = model.basis.T;
+        const MatrixXd               in     = T.transpose() * (frame.B - 4. * frame.M) * T;
+        const Motion                 motion = random_motion(few, in, g);
+        const VectorXd               braked = T * motion.braked;
+        VectorXd                     load   = frame.acceleration_load * g - frame.M * braked;
+        load(model.basis.q1) += motion.force;
+        const double accuracy = n_parts == 1 ? 1e-8 : 1e-6; // of the mass of parts: substructures.md (9)
+        for (const double z : heights)
+        {
+          const Eigen::Matrix<double, 6, 1> section = motions_above(frame, z).transpose() * load;
+          for (int k = 0; k < 6; ++k)
+          {
+            const std::string name    = "cut." + plane_at(z) + fem::section_components[std::size_t(k)][0];
+            const auto       &full    = output(frame, name);
+            const double      between = full.under_acceleration.dot(g) + full.on_a.dot(braked);
+            EXPECT_NEAR(force_of(few, name, motion, g), section[k] + between, accuracy * section.norm()) << name;
+          }
+        }
+        const Vector3d whole = frame.mass * g - frame.acceleration_load.transpose() * braked +
+                               frame.rigid_motions(model.basis.q1, Eigen::seqN(0, 3)).transpose() * motion.force;
+        for (int d = 0; d < 3; ++d)
+          EXPECT_NEAR(force_of(few, std::string("support.feet.") + "xyz"[d], motion, g), -whole[d],
+                      accuracy * whole.norm())
+              << "along " << d;
+      }
+}
+
+TEST(SupportForces, AndSectionsOfAnUnreducedFrameBalanceModalDamping)
+{
+  std::srand(2);
+  for (const Bar &bar : damped_bars())
+  {
+    fem::FrameMatrices frame = fem::discretise(bar.mesh, bar.specification);
+    coupling::add_modal_damping(frame, 10);
+    const auto     n = frame.M.rows();
+    const VectorXd a = VectorXd::Random(n), v = 1e-2 * VectorXd::Random(n),
+                   from_modes = frame.modal_damping.Z *
+                                frame.modal_damping.d.cwiseProduct(frame.modal_damping.Z.transpose() * v),
+                   braked = a + 4. * v + statics_of(frame.M, from_modes),
+                   q = statics(frame, -(frame.M * a + frame.B * v + from_modes)), load = -(frame.M * braked);
+    const auto force = [&](const fem::FrameOutput &row)
+    { return row.on_q.dot(q) + row.on_v.dot(v) + (row.on_a.size() > 0 ? row.on_a.dot(a) : 0.); };
+    for (const double z : heights)
     {
-      const coupling::ReducedModel model  = coupling::reduce_with_basis(frame, with_modes(modes));
-      const ReducedFrame          &few    = model.frame;
-      const MatrixXd              &T      = model.basis.T;
-      const MatrixXd               in     = T.transpose() * (frame.B - 4. * frame.M) * T;
-      const Motion                 motion = random_motion(few, in, g);
-      VectorXd                     load   = frame.acceleration_load * g - frame.M * (T * motion.braked);
-      load(model.basis.q1) += motion.force;
-      const Eigen::Matrix<double, 6, 1> section = motions_above(frame).transpose() * load;
-      const Vector3d whole = frame.mass * g - frame.acceleration_load.transpose() * (T * motion.braked) +
-                             frame.rigid_motions(model.basis.q1, Eigen::seqN(0, 3)).transpose() * motion.force;
+      const Eigen::Matrix<double, 6, 1> section = motions_above(frame, z).transpose() * load;
       for (int k = 0; k < 6; ++k)
       {
-        const std::string name    = std::string("cut.middle") + fem::section_components[std::size_t(k)][0];
-        const double      between = output(frame, name).under_acceleration.dot(g);
-        EXPECT_NEAR(force_of(few, name, motion, g), section[k] + between, 1e-8 * section.norm())
-            << modes << " modes, " << name;
+        const auto &row = output(frame, "cut." + plane_at(z) + fem::section_components[std::size_t(k)][0]);
+        EXPECT_NEAR(force(row), section[k] + row.on_a.dot(braked), 1e-8 * section.norm()) << row.name;
       }
-      for (int d = 0; d < 3; ++d)
-        EXPECT_NEAR(force_of(few, std::string("support.feet.") + "xyz"[d], motion, g), -whole[d], 1e-8 * whole.norm())
-            << modes << " modes, along " << d;
     }
+    const Vector3d whole = -frame.acceleration_load.transpose() * braked;
+    for (int d = 0; d < 3; ++d)
+      EXPECT_NEAR(force(output(frame, std::string("support.feet.") + "xyz"[d])), -whole[d], 1e-8 * whole.norm()) << d;
+  }
 }
 
 } // namespace

@@ -29,14 +29,14 @@ fem::CutSpecification cut_at(const std::string &name, const Vector3d &through, c
 }
 
 Six section(const fem::FrameMatrices &frame, const std::string &name, const VectorXd &q,
-            const Vector3d &g = Vector3d::Zero())
+            const Vector3d &g = Vector3d::Zero(), const VectorXd &a = {})
 {
   Six result;
   for (int k = 0; k < 6; ++k)
   {
     const auto &row = output(frame, "cut." + name + fem::section_components[k][0]);
     EXPECT_EQ(row.unit, k < 3 ? "N" : "N m");
-    result[k] = row.on_q.dot(q) + row.under_acceleration.dot(g);
+    result[k] = row.on_q.dot(q) + row.under_acceleration.dot(g) + (a.size() > 0 ? row.on_a.dot(a) : 0.);
   }
   return result;
 }
@@ -169,6 +169,41 @@ TEST(SectionForces, TurnWithTheFrame)
     found[turned]               = section(frame, "middle", statics(frame, load_on_tip(frame, R * F, R * M)));
   }
   expect_equal(found[1], found[0], "turned");
+}
+
+/// A bar that a foundation shakes as a rigid body, u'' = b + beta x (x - c): the section carries the inertia of all
+/// that lies beyond the plane, also through the middle of cells.
+TEST(SectionForces, CarryTheInertiaOfARigidBarBeyondAnyPlane)
+{
+  const Vector3d b(3., -4., 5.), beta(20., 30., -10.);
+  const double   A = width * height;
+  for (const auto &[kind, mesh, plane_faces] : bars())
+  {
+    if (!plane_faces)
+      continue;
+    auto specification     = cantilever();
+    specification.supports = {foundation("wall", {"x0"}, {{2e9, 3e9, 4e9}})};
+    const double places[]  = {0.05, 0.31, 0.53, 0.75, 1.1, 1.45};
+    for (const double s : places)
+      specification.cuts.push_back(cut_at(std::to_string(s), {s, 0., 0.}, {1., 0., 0.}));
+    const auto frame = fem::discretise(mesh, specification);
+    for (const double s : places)
+    {
+      const Vector3d c(s, 0.5 * width, 0.5 * height), to_c = c - Vector3d(frame.centre.data());
+      VectorXd       motion(6); // at c; its row of the frame is about the centre of mass
+      motion << b - beta.cross(to_c), beta;
+      const VectorXd a = frame.rigid_motions * motion, q = statics(frame, -(frame.M * a));
+      const double   l = length - s;
+      const Vector3d first(0.5 * l * l * A, 0., 0.), square(l * l * l / 3. * A, l * A * width * width / 12.,
+                                                            l * A * height * height / 12.); // int x - c, its squares
+      const Vector3d inertia = square.sum() * beta - square.cwiseProduct(beta);
+      const Six      expected =
+          along(Matrix3d::Identity(), -rho * (l * A * b + beta.cross(first)), -rho * (first.cross(b) + inertia));
+      EXPECT_LT((section(frame, std::to_string(s), q, Vector3d::Zero(), a) - expected).norm(),
+                rounding * rho * length * A * b.norm()) // of the whole bar
+          << kind << ", plane at " << s;
+    }
+  }
 }
 
 /// A load on a node between two planes is the difference of their forces; it turns about both.
