@@ -52,10 +52,6 @@ void add_rows(const Signal &signal, int n, Add &&add)
       add_rows(part, n, add);
 }
 
-/// Largest number of rows that are cheaper than a solution: two products with sparse matrices and its factor cost 40 n
-/// multiplications or more, a row 2 n.
-constexpr Eigen::Index most_rows = 20;
-
 } // namespace
 
 Accelerations::Accelerations(const SecondOrderSystem &system, const std::vector<Signal> &signals) : system_(system)
@@ -79,7 +75,6 @@ Accelerations::Accelerations(const SecondOrderSystem &system, const std::vector<
   Q_.resize(n, 0);
   for (const Signal &signal : signals)
     add_rows(signal, n, [this](const Eigen::VectorXd &row) { add_row(row); });
-  by_rows_ = Q_.cols() <= most_rows;
   if (by_rows_)
     solve_rows();
 }
@@ -87,9 +82,12 @@ Accelerations::Accelerations(const SecondOrderSystem &system, const std::vector<
 /// Extends Q by what it does not contain of a row, by the method of Gram and Schmidt.
 void Accelerations::add_row(Eigen::VectorXd row)
 {
-  if (Q_.cols() > most_rows)
+  if (!by_rows_)
     return;
-  constexpr double contained = 1e-12; // share of a row that is rounding of its products with Q
+  // Rows that are cheaper than a solution: two products with sparse matrices and its factor cost 40 n multiplications
+  // or more, a row 2 n.
+  constexpr Eigen::Index most_rows = 20;
+  constexpr double       contained = 1e-12; // share of a row that is rounding of its products with Q
   row.normalize();
   for (int twice = 0; twice < 2; ++twice)
   {
@@ -99,6 +97,9 @@ void Accelerations::add_row(Eigen::VectorXd row)
     else
       return;
   }
+  by_rows_ = Q_.cols() < most_rows;
+  if (!by_rows_)
+    return;
   Q_.conservativeResize(Eigen::NoChange, Q_.cols() + 1);
   Q_.rightCols<1>() = row;
 }

@@ -52,7 +52,7 @@ private:
   const SecondOrderSystem      &system_;
   std::unique_ptr<LinearSolver> mass_;
   Eigen::MatrixXd               Q_, Z_, BZ_, CZ_, WZ_;
-  bool                          by_rows_ = false;
+  bool                          by_rows_ = true;
   Eigen::VectorXd               p_, f_, product_, a_, c_;
 };
 

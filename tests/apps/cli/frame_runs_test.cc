@@ -78,10 +78,11 @@ struct Bar
 {
   Matrix3d    Q      = Matrix3d::Identity();
   double      l      = 1.;
-  bool        others = false; ///< nodes and sides in another order
-  std::string unit   = "1 m"; ///< of the drawing
-  double      drawn  = 1.;    ///< its lengths in this unit
-  std::string more   = "";    ///< keys of [frame]
+  bool        others = false;            ///< nodes and sides in another order
+  std::string unit   = "1 m";            ///< of the drawing
+  double      drawn  = 1.;               ///< its lengths in this unit
+  std::string more   = "";               ///< keys of [frame]
+  std::string wall   = "clamped = true"; ///< its support
 
   std::string vector(const Vector3d &x, double by = 1.) const
   {
