@@ -31,12 +31,34 @@ namespace
       " has no mass; give it a mass, or remove accelerations and forces of supports and cuts from output.signals");
 }
 
+/// Rows of q'' that a signal reads.
+template <typename Add>
+void add_rows(const Signal &signal, int n, Add &&add)
+{
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
+  for (const auto &[i, weight] : signal.on_a)
+    row[i] += weight;
+  if (!row.isZero(0.))
+    add(row);
+  if (signal.measure >= 0 && signal.quantity == 2) // a function of the accelerations of these coordinates
+    for (const auto &[i, weight] : signal.on_q)
+    {
+      row.setZero();
+      row[i] = 1.;
+      add(row);
+    }
+  if (signal.computed)
+    for (const Signal &part : signal.computed->of)
+      add_rows(part, n, add);
+}
+
 } // namespace
 
-Accelerations::Accelerations(const SecondOrderSystem &system) : system_(system)
+Accelerations::Accelerations(const SecondOrderSystem &system, const std::vector<Signal> &signals) : system_(system)
 {
+  const int n = system.linear().size();
   for (Eigen::VectorXd *x : {&f_, &product_, &a_})
-    x->setZero(system.linear().size());
+    x->setZero(n);
   p_.setZero(system.forces().directions().cols());
   try
   {
@@ -50,6 +72,58 @@ Accelerations::Accelerations(const SecondOrderSystem &system) : system_(system)
   mass_->solve(f_, a_);
   if (!a_.allFinite()) // of a solver without a check of its own
     refuse_singular(system);
+  Q_.resize(n, 0);
+  for (const Signal &signal : signals)
+    add_rows(signal, n, [this](const Eigen::VectorXd &row) { add_row(row); });
+  if (by_rows_)
+    solve_rows();
+}
+
+/// Extends Q by what it does not contain of a row, by the method of Gram and Schmidt.
+void Accelerations::add_row(Eigen::VectorXd row)
+{
+  if (!by_rows_)
+    return;
+  // Rows that are cheaper than a solution: two products with sparse matrices and its factor cost 40 n multiplications
+  // or more, a row 2 n.
+  constexpr Eigen::Index most_rows = 20;
+  constexpr double       contained = 1e-12; // share of a row that is rounding of its products with Q
+  row.normalize();
+  for (int twice = 0; twice < 2; ++twice)
+  {
+    row -= Q_ * (Q_.transpose() * row).eval();
+    if (const double left = row.norm(); left > contained)
+      row /= left;
+    else
+      return;
+  }
+  by_rows_ = Q_.cols() < most_rows;
+  if (!by_rows_)
+    return;
+  Q_.conservativeResize(Eigen::NoChange, Q_.cols() + 1);
+  Q_.rightCols<1>() = row;
+}
+
+void Accelerations::solve_rows()
+{
+  for (Eigen::MatrixXd *X : {&Z_, &BZ_, &CZ_})
+    X->resize(Q_.rows(), Q_.cols());
+  for (Eigen::Index k = 0; k < Q_.cols(); ++k)
+  {
+    f_ = Q_.col(k);
+    for (const int i : system_.linear().virtual_coordinates())
+      f_[i] = 0.;
+    mass_->solve(f_, a_);
+    for (const int i : system_.linear().virtual_coordinates())
+      a_[i] = 0.;
+    Z_.col(k) = a_;
+    system_.linear().damping_times(a_, product_);
+    BZ_.col(k) = product_;
+    system_.linear().stiffness_times(a_, product_);
+    CZ_.col(k) = product_;
+  }
+  WZ_ = system_.forces().directions().transpose() * Z_;
+  mass_.reset();
 }
 
 const Eigen::VectorXd &Accelerations::at(const Eigen::VectorXd &q, const Eigen::VectorXd &v, const LocalState &local)
@@ -57,6 +131,15 @@ const Eigen::VectorXd &Accelerations::at(const Eigen::VectorXd &q, const Eigen::
   p_ = local.p;
   system_.forces().force(local, p_);
   system_.linear().excitation().at(local.t, f_);
+  if (by_rows_)
+  {
+    c_.noalias() = Z_.transpose() * f_;
+    c_.noalias() += WZ_.transpose() * p_;
+    c_.noalias() -= BZ_.transpose() * v;
+    c_.noalias() -= CZ_.transpose() * q;
+    a_.noalias() = Q_ * c_;
+    return a_;
+  }
   f_.noalias() += system_.forces().directions() * p_;
   system_.linear().damping_times(v, product_);
   f_ -= product_;
@@ -80,6 +163,13 @@ const Eigen::VectorXd &Accelerations::at(double t, const TimeIntegrator &integra
     v                  = now.v;
   }
   return at(q, v, local);
+}
+
+std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signals, const SecondOrderSystem &system)
+{
+  if (std::none_of(signals.begin(), signals.end(), [](const Signal &signal) { return signal.reads_acceleration(); }))
+    return {};
+  return Accelerations(system, signals);
 }
 
 } // namespace gestell::coupling

@@ -55,14 +55,6 @@ std::vector<int> coordinates_of(const std::vector<Signal> &signals)
   return {coordinates.begin(), coordinates.end()};
 }
 
-std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signals, const SecondOrderSystem &system)
-{
-  for (const Signal &signal : signals)
-    if (signal.reads_acceleration())
-      return Accelerations(system);
-  return {};
-}
-
 Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
                    const std::vector<Signal> &signals, const Sampling &sampling, RunResult &result)
     : machine_(machine), integrator_(integrator), options_(options), signals_(signals), result_(result),

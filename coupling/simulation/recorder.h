@@ -20,10 +20,6 @@ std::string non_finite_state_message(double t, const Eigen::VectorXd &q, const E
 /// Coordinates whose positions or rates signals read, ascending.
 std::vector<int> coordinates_of(const std::vector<Signal> &signals);
 
-/// Evaluator of the accelerations that signals read; none if no signal reads any.
-/// @throws std::invalid_argument as Accelerations does
-std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signals, const SecondOrderSystem &system);
-
 /**
  * Records a run: extremes of all signals, rows of the history, states for pictures, and the energy balance.
  *

@@ -30,11 +30,9 @@ class BeginReader
 {
 public:
   BeginReader(coupling::Machine &machine, double begin, const std::vector<Signal> &signals)
-      : machine_(machine), signals_(signals)
+      : machine_(machine), signals_(signals), accelerations_(coupling::accelerations_for(signals, machine))
   {
     machine_.will_read(signals);
-    if (std::any_of(signals.begin(), signals.end(), [](const Signal &signal) { return signal.reads_acceleration(); }))
-      accelerations_.emplace(machine);
     local_.resize(machine);
     local_.t = begin;
     machine_.events().follow_history(false);

@@ -54,9 +54,7 @@ void trace_signals(coupling::Machine &machine, const coupling::PeriodicProblem &
                    PeriodicEntry &entry)
 {
   machine.will_read(signals);
-  std::optional<coupling::Accelerations> accelerations;
-  if (std::any_of(signals.begin(), signals.end(), [](const auto &signal) { return signal.reads_acceleration(); }))
-    accelerations.emplace(machine);
+  auto                             accelerations = coupling::accelerations_for(signals, machine);
   const Eigen::VectorXd            none;
   constexpr int                    least_samples = 4096; // of a period, for extremes: to (pi / 4096)^2 / 2 = 3e-7
   const int                        finer         = std::max(1, least_samples / rows);

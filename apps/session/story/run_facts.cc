@@ -201,8 +201,7 @@ void add_story(Session &session, Result &result)
 {
   const Scene       &scene   = session.scene();
   coupling::Machine &machine = session.machine().small();
-  const auto         signals =
-      with_normal_forces(scene, session.machine().machine, scene_signals(scene, session.machine().machine));
+  const auto signals = with_normal_forces(scene, machine, scene_signals(scene, machine)); // of its own coordinates
   if (!result.run || result.run->events.empty() || result.run->signals.size() != signals.size())
     return;
   for (auto &states : result.run->states.around)

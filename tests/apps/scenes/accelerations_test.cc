@@ -133,6 +133,32 @@ rows = { ry = 1, uz = 2 }
   EXPECT_EQ(motion.signal("frame").unit, "rad/s^2");
 }
 
+TEST(Accelerations, OfManySignalsAreThoseOfEachAlone)
+{
+  // A chain of 24: more rows than are worth a solution each, or a single one.
+  constexpr int n = 24;
+  std::string   chain, all;
+  for (int i = 0; i < n; ++i)
+  {
+    const std::string name = "s" + std::to_string(i), next = "s" + std::to_string(i + 1);
+    chain += slider_body(name, number(1. + 0.1 * i), "[1, 0, 0]");
+    Keys keys = {{"from", name}, {"stiffness", "800"}, {"damping", "2"}, {"direction", "[1, 0, 0]"}};
+    if (i + 1 < n)
+      keys.push_back({"to", next});
+    chain += element("e" + std::to_string(i), "spring-damper", keys);
+    all += (i ? ", a" : "a") + std::to_string(i) + " = '" + name + ".acceleration'";
+  }
+  chain += start("q = { s3 = '10 mm', s20 = '-4 mm' }") + steps("1 ms", "0.2 s");
+  const SceneRun many = run(chain + signals(all));
+  for (const int i : {0, 3, 20})
+  {
+    const SceneRun one = run(chain + signals("a = 's" + std::to_string(i) + ".acceleration'"));
+    ASSERT_EQ(one.n_rows(), many.n_rows());
+    for (std::size_t row = 0; row < one.n_rows(); ++row)
+      EXPECT_NEAR(one.at(row, 1), many.at(row, std::size_t(i) + 1), 1e-12 * 8.) << i << ", " << row;
+  }
+}
+
 // --- bad input
 
 TEST(Accelerations, NeedMassAndThrowNoSwitch)
