@@ -102,6 +102,14 @@ private:
   fem::ModalRatios        ratios_;
 };
 
+/// Whether the scene defines damping of the whole frame that `ratio` would replace.
+bool replaces_other_damping(const FrameRequest &frame)
+{
+  return frame.source == FrameSource::geometry
+             ? frame.geometry.rayleigh_mass > 0. || frame.geometry.rayleigh_stiffness > 0.
+             : frame.source == FrameSource::matrices && frame.matrices.B.nonZeros() > 0;
+}
+
 /// Root of an increasing function in [a, b] with f(a) < 0 < f(b): secant, and bisection where it leaves the interval.
 double root_of(const std::function<double(double)> &f, double a, double fa, double b, double fb, double tolerance)
 {
@@ -146,6 +154,10 @@ public:
       throw std::invalid_argument(scene.frame.place +
                                   ".damping.ratio: depends on the frequency; --damping-for finds one ratio for the "
                                   "modes of the frame: give a number, or single modes in `modes`");
+    if (replaces_other_damping(scene.frame))
+      throw std::invalid_argument(scene.frame.place +
+                                  ".damping: is Rayleigh damping or a matrix; --damping-for finds the `ratio` that "
+                                  "takes its place: give { ratio = 0 } instead");
   }
 
   AnalysisOutcome compute(Session &session, Result &result) const override
