@@ -206,8 +206,36 @@ RigidNodes rigid_nodes(const std::vector<SupportedPatch> &supports, const std::v
   for (const CoupledPatch &interface : coupled)
     if (const auto coupling = interface.specification.coupling;
         coupling != InterfaceCoupling::average && coupling != InterfaceCoupling::flexible)
-      rigid.emplace_back("interface " + interface.specification.name, interface.patch.nodes);
+      rigid.emplace_back(interface.specification.what + " " + interface.specification.name, interface.patch.nodes);
   return rigid;
+}
+
+/// Cuts through surfaces that carry force outside of the cells.
+std::vector<std::string> cuts_of_rigid_surfaces(const std::vector<CutSpecification> &cuts,
+                                                const std::vector<CoupledPatch> &coupled, const QuadraticMesh &mesh,
+                                                double tolerance)
+{
+  std::vector<std::string> notes;
+  for (const CutSpecification &cut : cuts)
+    for (const CoupledPatch &one : coupled)
+    {
+      if (one.specification.coupling != InterfaceCoupling::rigid)
+        continue;
+      const Eigen::Map<const Eigen::Vector3d> normal(cut.normal.data()), through(cut.through.data());
+      double                                  low = 0., high = 0.;
+      for (const int node : one.patch.nodes)
+      {
+        const Eigen::Map<const Eigen::Vector3d> x(mesh.points[node].data());
+        const double                            height = normal.normalized().dot(x - through);
+        low = std::min(low, height), high = std::max(high, height);
+      }
+      if (low < -tolerance && high > tolerance)
+        notes.push_back("cut \"" + cut.name + "\" divides the surface of the " + one.specification.what + " \"" +
+                        one.specification.name +
+                        "\", which is rigid and carries force past the section: its forces "
+                        "are those of the cells only; move the plane, or use coupling = \"average\"");
+    }
+  return notes;
 }
 
 Discretisation discretise(const Mesh &mesh, const FrameSpecification &specification, CellSums cells,
@@ -237,6 +265,9 @@ Discretisation discretise(const Mesh &mesh, const FrameSpecification &specificat
   for (std::string &note : masses_far_off(coupled, diagonal(mesh)))
     frame.notes.push_back(std::move(note));
   for (std::string &note : rayleigh_at_large(specification))
+    frame.notes.push_back(std::move(note));
+  for (std::string &note :
+       cuts_of_rigid_surfaces(specification.cuts, coupled, quadratic, node_tolerance * diagonal(mesh)))
     frame.notes.push_back(std::move(note));
   std::vector<int> supported;
   for (const SupportedPatch &one : supports)

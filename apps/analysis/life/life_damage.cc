@@ -39,7 +39,7 @@ struct LifeGroup
   double                       strength = 0.; ///< [Pa] R_m of the curve; 0: not given
   std::vector<int>             skin;          ///< [points] of the frame's skin; empty: they are these
   std::optional<ReducedStress> own{};         ///< of a weld
-  std::string                  doubt{};       ///< a warning about the weld
+  std::vector<std::string>     doubts{};      ///< warnings about the weld
 
   int skin_point(int i) const { return skin.empty() ? i : skin[std::size_t(i)]; }
 };
@@ -79,7 +79,7 @@ LifeGroup group_of_weld(const LifeRequest &life, const WeldRequest &weld, const 
   group.search.position   = std::move(points.position);
   group.skin              = std::move(points.skin);
   group.own               = std::move(points.stress);
-  group.doubt             = std::move(points.doubt);
+  group.doubts            = std::move(points.doubts);
   return group;
 }
 
@@ -164,9 +164,9 @@ std::vector<std::pair<std::string, double>> named_shares(const ReducedFrame &fra
 LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedFrame &frame, const LifeLoad &load,
                    const OtherLoads &others)
 {
-  const std::vector<Cycle> cycles =
-      count_cycles(stress_history(*group.stress, load.states, group.search, at), load.sequence);
-  LifePlace place;
+  const VectorXd           history = stress_history(*group.stress, load.states, group.search, at);
+  const std::vector<Cycle> cycles  = count_cycles(history, load.sequence);
+  LifePlace                place;
   place.of      = group.name;
   place.point   = at.point;
   place.at      = group.search.position[std::size_t(at.point)];
@@ -215,10 +215,14 @@ LifePlace place_of(const LifeGroup &group, const PointDamage &at, const ReducedF
   if (std::isinf(place.damage)) // life_warnings() gives the reason
     return place;
   place.error.mesh = ratio_of_lives(damage(load.states, load.sequence, 1. + place.disagreement), place.damage);
-  place.error.time = std::cbrt(ratio_of_lives(damage(others.coarse.states, others.coarse.sequence, 1.), place.damage));
-  place.shares     = named_shares(
-          frame, others.omega,
-          damage_shares(*group.stress, load.states, load.sequence, group.rule, group.search, at, others.fixed));
+  const double turning =
+      damage_of(count_cycles(extremes_between_samples(history, load.sequence), load.sequence), group.rule);
+  place.error.time =
+      std::max(std::cbrt(ratio_of_lives(damage(others.coarse.states, others.coarse.sequence, 1.), place.damage)),
+               std::pow(ratio_of_lives(turning, place.damage), 1. / found_between_samples));
+  place.shares = named_shares(
+      frame, others.omega,
+      damage_shares(*group.stress, load.states, load.sequence, group.rule, group.search, at, others.fixed));
   return place;
 }
 
@@ -347,8 +351,7 @@ LifeResult life_of(const Scene &scene, const ReducedFrame &frame, const LifeLoad
   std::vector<std::pair<const LifeGroup *, PointDamage>> worst;
   for (const LifeGroup &group : groups)
   {
-    if (!group.doubt.empty())
-      result.warnings.push_back(group.doubt);
+    result.warnings.insert(result.warnings.end(), group.doubts.begin(), group.doubts.end());
     for (const PointDamage &at : worst_of(group, load, result))
     {
       LifePlace place = place_of(group, at, frame, load, others);

@@ -147,8 +147,8 @@ void refine_error(Session &session, const LifeLoad &load, LifeResult &found)
   LifeError      &error     = found.places.front().error;
   const auto     &frame     = *session.machine().machine.model().reduced_frame();
   const FinerTime finer_run = finer_time(session, *worst);
-  error.time                = std::pow(life_factor(finer_run.damage.total(), worst->damage), finer_run.power);
-  error.modes               = 1.;
+  error.time  = std::pow(life_factor(finer_run.damage.total(), worst->damage), finer_run.power / found_between_samples);
+  error.modes = 1.;
   const int modes = int(frame.omega0.size()), most = frame.n_full - frame.n_interface;
   if (modes < most)
   {
@@ -175,7 +175,7 @@ std::vector<LifeDerivative> life_derivatives(Session &session, const LifeResult 
   for (const VariedKey &key : varied_keys(session.variant().root, keys))
   {
     LifeDerivative own{key.reported.key};
-    const double   steps = step_of_key * std::abs(key.reported.value) / key.step;
+    const double   steps = step_of_key * key.reported.value / key.step; // of a negative value, away from zero
     try
     {
       for (const int i : {0, 1, 3, 4})

@@ -208,24 +208,52 @@ std::string in_mm(double length)
   return short_text(1e3 * length, 3) + " mm";
 }
 
-std::string doubt_of(const WeldRequest &weld, double largest, bool reentrant)
+/// Where a line is not assessed.
+struct Omitted
 {
-  const std::string name    = "life: the weld '" + weld.name + "' ";
-  const double      allowed = weld.thickness > 0. ? resolution(weld.distances) * weld.thickness : 0.;
-  constexpr double  uneven  = 1.25; // meshers exceed the size that was asked for by so much
+  std::size_t n   = 0;
+  Vector3d    low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+
+  void add(const Vector3d &x)
+  {
+    ++n;
+    low = low.cwiseMin(x), high = high.cwiseMax(x);
+  }
+};
+
+std::string position_text(const Vector3d &x)
+{
+  return "(" + short_text(x[0]) + " " + short_text(x[1]) + " " + short_text(x[2]) + ")";
+}
+
+std::vector<std::string> doubts_of(const WeldRequest &weld, double largest, bool reentrant, const Omitted &omitted,
+                                   std::size_t assessed)
+{
+  std::vector<std::string> doubts;
+  const std::string        name    = "life: the weld '" + weld.name + "' ";
+  const double             allowed = weld.thickness > 0. ? resolution(weld.distances) * weld.thickness : 0.;
+  constexpr double         uneven  = 1.25; // meshers exceed the size that was asked for by so much
   if (weld.thickness == 0. && reentrant)
-    return name + "uses the stress in a re-entrant corner, which is singular, so no mesh resolves it; give its "
-                  "'thickness' for the hot-spot stress";
+    doubts.push_back(name + "uses the stress in a re-entrant corner, which is singular, so no mesh resolves it; give "
+                            "its 'thickness' for the hot-spot stress");
   if (weld.thickness > 0. && largest > uneven * allowed)
-    return name + "is extrapolated from elements of " + in_mm(largest) +
-           ", too large for its distances; use elements of " + in_mm(allowed) + " there, or larger distances (IIW)";
-  return "";
+    doubts.push_back(name + "is extrapolated from elements of " + in_mm(largest) +
+                     ", too large for its distances; use elements of " + in_mm(allowed) +
+                     " there, or larger distances (IIW)");
+  if (omitted.n > 0 && assessed > 0)
+    doubts.push_back(name + "is not assessed at " + std::to_string(omitted.n) + " of " +
+                     count_text(omitted.n + assessed, "point") + " of its line, between " + position_text(omitted.low) +
+                     " and " + position_text(omitted.high) + ": '" + weld.surfaces.front() +
+                     "' is narrower there than " + in_mm(weld.distances.back() * weld.thickness) +
+                     "; give smaller 'distances', or assess this part as a weld of its own");
+  return doubts;
 }
 
 std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vector<char>> &on, const LifeSkin &skin,
-                            std::string &doubt)
+                            std::vector<std::string> &doubts)
 {
-  double                 largest   = 0.;
+  double                 largest = 0.;
+  Omitted                omitted;
   bool                   reentrant = false;
   std::vector<WeldPoint> chosen;
   const auto             first = triangles_on(on[0], skin), second = triangles_on(on[1], skin);
@@ -235,7 +263,10 @@ std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vect
     const auto there = here ? corner_at(int(i), second, skin) : std::nullopt;
     if (!there)
       continue;
-    Vector3d direction = here->normal.cross(there->normal).cross(here->normal).normalized();
+    Vector3d away = here->normal.cross(there->normal).cross(here->normal).normalized(); // from the line
+    if (away.dot(here->inwards) < 0.)
+      away = -away;
+    Vector3d direction = away;
     if (weld.direction)
     {
       const auto given = in_surface(vector_of(*weld.direction), here->normal);
@@ -243,8 +274,6 @@ std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vect
         refuse_normal_direction(weld);
       direction = *given;
     }
-    if (direction.dot(here->inwards) < 0.)
-      direction = -direction;
     constexpr double corner = 0.1; // sine of 6 degrees: a chord of a curved surface is not a corner
     reentrant               = reentrant || here->normal.dot(there->inwards.normalized()) > corner;
     Weights weights{{int(i), 1.}};
@@ -256,18 +285,21 @@ std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vect
       for (std::size_t k = 0; k < weld.distances.size() && reaches; ++k)
       {
         const Triangle *triangle =
-            add_stress_at(skin.position[i] + weld.distances[k] * weld.thickness * direction,
+            add_stress_at(skin.position[i] + weld.distances[k] * weld.thickness * away,
                           factor_at_zero(weld.distances, k), 0.5 * weld.thickness, first, skin, weights);
         reaches     = triangle != nullptr;
-        across_here = reaches ? std::max(across_here, extent(*triangle, direction, skin)) : across_here;
+        across_here = reaches ? std::max(across_here, extent(*triangle, away, skin)) : across_here;
       }
       if (!reaches)
+      {
+        omitted.add(skin.position[i]);
         continue;
+      }
       largest = std::max(largest, across_here);
     }
     chosen.push_back({std::move(weights), int(i), across(here->normal, direction)});
   }
-  doubt = doubt_of(weld, largest, reentrant);
+  doubts = doubts_of(weld, largest, reentrant, omitted, chosen.size());
   return chosen;
 }
 
@@ -297,8 +329,8 @@ WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem:
     counts += (counts.empty() ? "'" : ", '") + name + "' has " +
               count_text(std::size_t(std::count(on.back().begin(), on.back().end(), 1)), "point");
   }
-  std::string                  doubt;
-  const std::vector<WeldPoint> chosen = on.size() == 1 ? area(weld, on[0], stress, skin) : line(weld, on, skin, doubt);
+  std::vector<std::string>     doubts;
+  const std::vector<WeldPoint> chosen = on.size() == 1 ? area(weld, on[0], stress, skin) : line(weld, on, skin, doubts);
   if (chosen.empty())
     throw std::invalid_argument(
         weld.place + ": the weld '" + weld.name + "' matches no point of the skin (" + counts + "); " +
@@ -309,7 +341,7 @@ WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem:
   if (on.size() == 2)
     require_valid_stresses(weld, on.front(), stress);
   WeldPoints points = points_of(chosen, stress, skin);
-  points.doubt      = std::move(doubt);
+  points.doubts     = std::move(doubts);
   return points;
 }
 

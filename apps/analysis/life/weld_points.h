@@ -18,7 +18,7 @@ struct WeldPoints
   std::vector<Eigen::Vector3d>   position;   ///< [points] m, on the weld
   std::vector<SurfaceDirections> directions; ///< weld = normal x direction across it
   std::vector<int>               skin;       ///< [points] of the frame's skin, the one of the largest weight
-  std::string                    doubt;      ///< a warning about its stresses; empty: none
+  std::vector<std::string>       doubts;     ///< warnings about its stresses
 };
 
 /**
@@ -29,7 +29,7 @@ struct WeldPoints
  *     sigma = sum_k L_k sigma(delta_k t),     L_k = prod_{j != k} delta_j / (delta_j - delta_k),
  *
  * each linear in the triangle in which it lies; 1.67 and -0.67 for 0.4 and 1.  Points from which the surface does not
- * reach that far are omitted.  An element that extends further across the line than from it to the first distance, or
+ * reach that far are omitted, with a warning.  An element that extends further across the line than from it to the first distance, or
  * from one distance to the next, makes the result doubtful: it mixes their stresses with the singular one at the line.
  *
  * @throws std::invalid_argument with the place of the weld: no such points

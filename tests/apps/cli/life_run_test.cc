@@ -184,22 +184,33 @@ TEST(LifeRun, IsAnOutputOfStudies)
   EXPECT_NEAR(found[1], std::pow(1.5, 3) * damage, slow * std::pow(1.5, 3) * damage);
 }
 
+/// Ten samples a period that lie 18 degrees beside every extreme, as every second of them does.
+TEST(LifeRun, TheErrorOfSamplesBesideAllExtremesIsStated)
+{
+  const Bar bar("life_samples");
+  bar.life("life.step = '0.1 s'\n");
+  const double missed = std::pow(std::cos(0.1 * M_PI), -3);
+  EXPECT_NEAR(bar.number({"life", "damage"}), damage / missed, slow * damage);
+  EXPECT_GT(bar.number({"life", "factor"}), missed);
+  EXPECT_LT(std::log(bar.number({"life", "factor"})), 1.1 * std::log(missed)); // 0.93/0.9 of a sine, and the slow bar
+}
+
 /// A mass on a spring and the bar in series, with a dashpot, pulls at the bar with k_t F / |k_t - m w^2 + i b w|; its
 /// range to the power -3 is the life.
 TEST(LifeRun, DerivativesOfASineAreThoseOfItsTransferFunction)
 {
   const Bar bar("life_transfer");
   bar.life(
-      "without = ['element.load']\n[parameters]\nk_s = 5e7\nm_s = 6.3e5\nb_s = 2.4e6\n[body.mass]\ntype = 'slider'\n"
+      "without = ['element.load']\n[parameters]\nn_s = -5e7\nm_s = 6.3e5\nb_s = 2.4e6\n[body.mass]\ntype = 'slider'\n"
       "axis = [1, 0, 0]\nmass = 'm_s'\n[element.spring]\ntype = 'spring-damper'\nfrom = 'mass'\nto = 'frame.tip'\n"
-      "direction = [1, 0, 0]\nstiffness = 'k_s'\n[element.pot]\ntype = 'spring-damper'\nfrom = 'mass'\nto = 'ground'\n"
+      "direction = [1, 0, 0]\nstiffness = '-n_s'\n[element.pot]\ntype = 'spring-damper'\nfrom = 'mass'\nto = 'ground'\n"
       "direction = [1, 0, 0]\ndamping = 'b_s'\n[element.push]\ntype = 'force'\nfrom = 'mass'\ndirection = [1, 0, 0]\n"
       "harmonics = [{ amplitude = 'F', frequency = '1/T_s' }]\n[run]\nend = 16\n[life]\ncurve = { class = 36 }\n",
-      " --life-by parameters.k_s,parameters.m_s,parameters.b_s,parameters.T_s,parameters.F");
+      " --life-by parameters.n_s,parameters.m_s,parameters.b_s,parameters.T_s,parameters.F");
   const double k = 5e7, m = 6.3e5, b = 2.4e6, w = 2. * M_PI, k_bar = 210e9 * 0.05 / 2.;
   const double k_t = k * k_bar / (k + k_bar), free = k_t - m * w * w, square = free * free + b * b * w * w;
   for (const auto &[key, exponent] :
-       {std::pair("k_s", (1. - k_t * free / square) * k_bar / (k + k_bar)), std::pair("m_s", m * w * w * free / square),
+       {std::pair("n_s", (1. - k_t * free / square) * k_bar / (k + k_bar)), std::pair("m_s", m * w * w * free / square),
         std::pair("b_s", -b * b * w * w / square), std::pair("T_s", (b * b * w * w - 2. * m * w * w * free) / square),
         std::pair("F", 1.)})
   {
@@ -300,7 +311,8 @@ TEST(LifeRun, BadInputIsRefusedWithItsRemedy)
   bar.file("other.toml", "extends = 'bar_life.toml'\nrun.end = -1\n");
   refused("[[life.block]]\nscene = 'other.toml'\n", {"own.toml:2: life.block[1]: ", "other.toml:2: run.end"});
   bar.file("other.toml", "extends = 'bar_life.toml'\noutput.from = '5 s'\n");
-  refused("[[life.block]]\nscene = 'other.toml'\n", {"own.toml:2: life.block[1]: ", "other.toml:2: output.from: is 5 s"});
+  refused("[[life.block]]\nscene = 'other.toml'\n",
+          {"own.toml:2: life.block[1]: ", "other.toml:2: output.from: is 5 s"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nframe.material.E = '200 GPa'\n");
   refused("[[life.block]]\nscene = 'other.toml'\n", {"has a different frame", "material or dimensions differ"});
   bar.file("other.toml", "extends = 'bar_life.toml'\nreduction.modes = 4\n");

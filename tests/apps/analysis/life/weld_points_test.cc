@@ -97,12 +97,45 @@ TEST(WeldPoints, HotSpotsOfPolynomialsAreTheirValuesAtTheLine)
 TEST(WeldPoints, AreDoubtfulOnACoarseMeshAndInACorner)
 {
   const Corner corner([](double) { return 1.; });
-  EXPECT_EQ(corner.points(line(1., {0.4, 1.})).doubt, "");
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(corner.points(line(1., {0.4, 1.})).doubts, Words{});
+  EXPECT_EQ(corner.points(line(0.15, {0.4, 1.})).doubts,
+            Words{"life: the weld 'seam' is extrapolated from elements of 100 mm, too large for its distances; use "
+                  "elements of 60 mm there, or larger distances (IIW)"});
+  const Words singular = corner.points(line(0., {})).doubts;
+  ASSERT_EQ(singular.size(), 1u);
+  EXPECT_NE(singular.front().find("re-entrant corner"), std::string::npos);
+}
+
+/// A floor of the width 1 m - y/2 reaches 0.72 m from the line up to y = 0.5 m.
+TEST(WeldPoints, PartsWhereTheSurfaceIsTooNarrowAreNamed)
+{
+  Corner corner([](double) { return 1.; });
+  for (Eigen::Vector3d &x : corner.skin.position)
+    x.x() *= 1. - 0.5 * x.y();
+  const auto found = corner.points(line(0.72, {0.4, 1.}));
+  EXPECT_EQ(found.position.size(), 6u);
+  ASSERT_EQ(found.doubts.size(), 1u);
   EXPECT_EQ(
-      corner.points(line(0.15, {0.4, 1.})).doubt,
-      "life: the weld 'seam' is extrapolated from elements of 100 mm, too large for its distances; use elements of "
-      "60 mm there, or larger distances (IIW)");
-  EXPECT_NE(corner.points(line(0., {})).doubt.find("re-entrant corner"), std::string::npos);
+      found.doubts.front(),
+      "life: the weld 'seam' is not assessed at 5 of 11 points of its line, between (0 0.6 0) and (0 1 0): "
+      "'floor' is narrower there than 720 mm; give smaller 'distances', or assess this part as a weld of its own");
+}
+
+/// `direction` turns the stress, not the extrapolation, which goes away from the line.
+TEST(WeldPoints, AnObliqueStressIsExtrapolatedPerpendicularToTheLine)
+{
+  WeldRequest oblique = line(1., {0.4, 1.});
+  oblique.direction   = {3., 4., 0.};
+  const auto found    = Corner([](double x) { return 3. - 2. * x; }).points(oblique);
+  ASSERT_EQ(found.position.size(), std::size_t(n + 1));
+  constexpr double single = 1e-5;
+  for (int i = 0; i <= n; ++i)
+  {
+    const auto &there = found.directions[std::size_t(i)];
+    EXPECT_NEAR(found.stress.mean(6 * i, 0), 3., single);
+    EXPECT_NEAR(std::abs(there.normal.cross(there.weld).dot(Eigen::Vector3d(0.6, 0.8, 0.))), 1., single);
+  }
 }
 
 TEST(WeldPoints, AWeldThatMatchesNothingIsRefused)
