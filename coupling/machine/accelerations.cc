@@ -31,6 +31,38 @@ namespace
       " has no mass; give it a mass, or remove accelerations and forces of supports and cuts from output.signals");
 }
 
+/// Null if M is singular.
+std::unique_ptr<LinearSolver> factor_of_mass(const SecondOrderSystem &system)
+{
+  try
+  {
+    auto            factor = system.linear().factorise(1., 0., 0.);
+    Eigen::VectorXd f = Eigen::VectorXd::Ones(system.linear().size()), a = f;
+    factor->solve(f, a);
+    if (a.allFinite()) // a solver without a check of its own
+      return factor;
+  }
+  catch (const std::invalid_argument &)
+  {
+  }
+  return nullptr;
+}
+
+/// Of M + h B + h^2 C, h far below all periods: M, but regular where coordinates without mass have stiffness or
+/// damping.
+std::unique_ptr<LinearSolver> factor_of_brief_step(const SecondOrderSystem &system)
+{
+  constexpr double h = 1e-9; // [s]
+  try
+  {
+    return system.linear().factorise(1., h, h * h);
+  }
+  catch (const std::invalid_argument &)
+  {
+    refuse_singular(system);
+  }
+}
+
 /// Rows of q'' that a signal reads.
 template <typename Add>
 void add_rows(const Signal &signal, int n, Add &&add)
@@ -60,23 +92,17 @@ Accelerations::Accelerations(const SecondOrderSystem &system, const std::vector<
   for (Eigen::VectorXd *x : {&f_, &product_, &a_})
     x->setZero(n);
   p_.setZero(system.forces().directions().cols());
-  try
-  {
-    mass_ = system.linear().factorise(1., 0., 0.);
-  }
-  catch (const std::invalid_argument &)
-  {
-    refuse_singular(system);
-  }
-  f_.setOnes();
-  mass_->solve(f_, a_);
-  if (!a_.allFinite()) // of a solver without a check of its own
-    refuse_singular(system);
+  mass_              = factor_of_mass(system);
+  const bool regular = mass_ != nullptr;
+  if (!regular)
+    mass_ = factor_of_brief_step(system);
   Q_.resize(n, 0);
   for (const Signal &signal : signals)
     add_rows(signal, n, [this](const Eigen::VectorXd &row) { add_row(row); });
   if (by_rows_)
-    solve_rows();
+    solve_rows(regular);
+  else if (!regular)
+    refuse_singular(system);
 }
 
 /// Extends Q by what it does not contain of a row, by the method of Gram and Schmidt.
@@ -104,18 +130,37 @@ void Accelerations::add_row(Eigen::VectorXd row)
   Q_.rightCols<1>() = row;
 }
 
-void Accelerations::solve_rows()
+/// M y = s, with the factor of M or of almost M; the rows of coordinates without mass then have no solution.
+void Accelerations::solve_row(const Eigen::VectorXd &s, bool regular)
+{
+  f_ = s;
+  for (const int i : system_.linear().virtual_coordinates())
+    f_[i] = 0.;
+  mass_->solve(f_, a_);
+  constexpr double solved = 1e-13; // of the row: rounding
+  constexpr int    most   = 20;    // corrections, each smaller by (h omega)^2
+  for (int i = 0; !regular; ++i)
+  {
+    system_.linear().mass_times(a_, product_);
+    const Eigen::VectorXd left = f_ - product_;
+    if (left.norm() <= solved)
+      break;
+    if (i == most || !left.allFinite())
+      refuse_singular(system_);
+    mass_->solve(left, product_);
+    a_ += product_;
+  }
+  for (const int i : system_.linear().virtual_coordinates())
+    a_[i] = 0.;
+}
+
+void Accelerations::solve_rows(bool regular)
 {
   for (Eigen::MatrixXd *X : {&Z_, &BZ_, &CZ_})
     X->resize(Q_.rows(), Q_.cols());
   for (Eigen::Index k = 0; k < Q_.cols(); ++k)
   {
-    f_ = Q_.col(k);
-    for (const int i : system_.linear().virtual_coordinates())
-      f_[i] = 0.;
-    mass_->solve(f_, a_);
-    for (const int i : system_.linear().virtual_coordinates())
-      a_[i] = 0.;
+    solve_row(Q_.col(k), regular);
     Z_.col(k) = a_;
     system_.linear().damping_times(a_, product_);
     BZ_.col(k) = product_;

@@ -30,9 +30,9 @@ namespace gestell::coupling
 class Accelerations
 {
 public:
-  /// Factorises M.
+  /// Factorises M.  Coordinates without mass are allowed if their accelerations are not read.
   /// @param signals  that read the accelerations
-  /// @throws std::invalid_argument if M is singular, with a coordinate without mass
+  /// @throws std::invalid_argument if a row reads them, or if M is singular and there are many rows
   Accelerations(const SecondOrderSystem &system, const std::vector<Signal> &signals);
 
   /// @param q,     v   [n]
@@ -47,7 +47,8 @@ public:
 
 private:
   void add_row(Eigen::VectorXd row);
-  void solve_rows();
+  void solve_row(const Eigen::VectorXd &s, bool regular);
+  void solve_rows(bool regular);
 
   const SecondOrderSystem      &system_;
   std::unique_ptr<LinearSolver> mass_;

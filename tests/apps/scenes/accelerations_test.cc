@@ -163,14 +163,21 @@ TEST(Accelerations, OfManySignalsAreThoseOfEachAlone)
 
 TEST(Accelerations, NeedMassAndThrowNoSwitch)
 {
-  expect_refusal(
-      []
-      {
-        run("[frame]\nmass = [[10, 0], [0, 0]]\nstiffness = [[1e4, 0], [0, 1e3]]\n[frame.interface.a]\n"
-            "rows = { ux = 1, ry = 2 }\n" +
-            steps("1 ms", "0.1 s") + signals("a = 'frame.a.ux_acceleration'"));
-      },
-      "\"frame.a.ry\" has no mass");
+  const auto massless = [](const std::string &coordinate, const std::string &coupling)
+  {
+    return run("[frame]\nmass = [[10, 0], [0, 0]]\nstiffness = [[1e4, " + coupling + "], [" + coupling +
+               ", 1e3]]\n[frame.interface.a]\nrows = { ux = 1, ry = 2 }\n" +
+               start("q = { 'frame.a.ux' = '1 mm', 'frame.a.ry' = " + number(-1e-6 * std::stod(coupling)) + " }") +
+               steps("1 ms", "0.1 s") + signals("a = 'frame.a." + coordinate + "_acceleration', u = 'frame.a.ux'"));
+  };
+  for (const std::string coupling : {"0", "1e3"}) // 10 u'' = -(1e4 - coupling^2/1e3) u
+  {
+    const SceneRun motion = massless("ux", coupling);
+    const double   c      = (1e4 - std::pow(std::stod(coupling), 2) / 1e3) / 10.;
+    for (std::size_t row = 0; row < motion.n_rows(); ++row)
+      EXPECT_NEAR(motion.at(row, 1), -c * motion.at(row, 2), 1e-12);
+  }
+  expect_refusal([&] { massless("ry", "0"); }, "\"frame.a.ry\" has no mass");
   const std::string thrown = oscillator("0.1 s") + "[switch.s]\nwhen = 'slide.acceleration'\nabove = '1 m/s^2'\n"
                                                    "tell = 'spring'\norder = 'off'\n";
   expect_refusal([&] { run(thrown); }, "is an acceleration");
