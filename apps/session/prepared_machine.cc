@@ -235,13 +235,18 @@ Eigen::VectorXd PreparedMachine::project(const Eigen::VectorXd &state) const
 coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepared)
 {
   const coupling::InitialState state = initial_state(scene, prepared.small());
+  if (!prepared.in_modes && !prepared.companion)
+    return state;
+  Eigen::VectorXd acceleration;
+  if (scene.start.rule == StartRule::rest && scene.start.inertia_relief && prepared.small().model().reduced_frame())
+    acceleration = coupling::acceleration_of_interfaces(prepared.small(), state);
   if (!prepared.in_modes)
-    return prepared.companion ? coupling::expand_statically(prepared.machine, *prepared.companion, state) : state;
+    return coupling::expand_statically(prepared.machine, *prepared.companion, state, acceleration);
   const MachineInModes &modes = *prepared.in_modes;
   if (!modes.whole)
     return start_in_modes(scene, prepared.machine, *prepared.companion, modes.projection, state);
   return start_in_modes(scene, prepared.machine, *modes.whole, modes.projection,
-                        coupling::expand_statically(*modes.whole, *prepared.companion, state));
+                        coupling::expand_statically(*modes.whole, *prepared.companion, state, acceleration));
 }
 
 std::string mesh_text(const FrameRequest &frame)

@@ -1,6 +1,7 @@
 #include "coupling/equilibrium/static_expansion.h"
 
 #include "coupling/algebra/sparse_cholesky.h"
+#include "coupling/machine/accelerations.h"
 
 namespace gestell::coupling
 {
@@ -18,13 +19,15 @@ std::vector<std::pair<int, int>> matching_interfaces(const Machine &full, const 
         for (int i = 0; i < 6; ++i)
           if (mine.coordinate[i] >= 0)
             pairs.emplace_back(mine.coordinate[i], other.coordinate[i]);
-  if (static_cast<int>(pairs.size()) != full.model().n_interface() || full.model().n_interface() != reduced.model().n_interface())
+  if (static_cast<int>(pairs.size()) != full.model().n_interface() ||
+      full.model().n_interface() != reduced.model().n_interface())
     throw std::invalid_argument("expand_statically: the two frames do not have the same interfaces");
   return pairs;
 }
 } // namespace
 
-InitialState expand_statically(const Machine &full, const Machine &reduced, const InitialState &state)
+InitialState expand_statically(const Machine &full, const Machine &reduced, const InitialState &state,
+                               const Eigen::VectorXd &acceleration)
 {
   InitialState expanded{state.t, Eigen::VectorXd::Zero(full.size()), Eigen::VectorXd::Zero(full.size()), state.settled,
                         state.notes};
@@ -34,12 +37,15 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
   expanded.q.tail(n_bodies) = state.q.tail(n_bodies);
   expanded.v.tail(n_bodies) = state.v.tail(n_bodies);
 
-  std::vector<int> place(n_frame, 0); // of an inner coordinate in q2, -1 for q1
+  Eigen::VectorXd  rigid = Eigen::VectorXd::Zero(n_frame); // q''
+  std::vector<int> place(n_frame, 0);                      // of an inner coordinate in q2, -1 for q1
   for (const auto &[mine, other] : matching_interfaces(full, reduced))
   {
     expanded.q[mine] = state.q[other];
     expanded.v[mine] = state.v[other];
     place[mine]      = -1;
+    if (acceleration.size() > 0)
+      rigid[mine] = acceleration[other];
   }
   int n2 = 0;
   for (int &i : place)
@@ -50,21 +56,36 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
   full.linear().excitation().at(state.t, load);
   const Eigen::VectorXd               force = load.head(n_frame) - C * expanded.q.head(n_frame);
   const Eigen::VectorXd               rate  = -(C * expanded.v.head(n_frame));
-  Eigen::MatrixXd                     inner(n2, 2);
+  const Eigen::VectorXd               turn  = -(C * rigid);
+  Eigen::MatrixXd                     inner(n2, 3);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(C.nonZeros());
   for (int j = 0; j < n_frame; ++j)
   {
     if (place[j] < 0)
       continue;
-    inner.row(place[j]) << force[j], rate[j];
+    inner.row(place[j]) << force[j], rate[j], turn[j];
     for (Eigen::SparseMatrix<double>::InnerIterator it(C, j); it; ++it)
       if (place[it.row()] >= 0)
         entries.emplace_back(place[it.row()], place[j], it.value());
   }
   Eigen::SparseMatrix<double> C22(n2, n2);
   C22.setFromTriplets(entries.begin(), entries.end());
-  SparseCholesky(C22).solve_in_place(inner);
+  const SparseCholesky factor(C22);
+  factor.solve_in_place(inner);
+  if (acceleration.size() > 0)
+  {
+    for (int i = 0; i < n_frame; ++i)
+      if (place[i] >= 0)
+        rigid[i] = inner(place[i], 2);
+    const Eigen::VectorXd inertia = -(full.model().full_frame()->M * rigid);
+    for (int i = 0; i < n_frame; ++i)
+      if (place[i] >= 0)
+        inner(place[i], 2) = inertia[i];
+    Eigen::MatrixXd deflection = inner.rightCols<1>();
+    factor.solve_in_place(deflection);
+    inner.col(0) += deflection;
+  }
   for (int i = 0; i < n_frame; ++i)
     if (place[i] >= 0)
     {
@@ -72,6 +93,26 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
       expanded.v[i] = inner(place[i], 1);
     }
   return expanded;
+}
+
+Eigen::VectorXd acceleration_of_interfaces(Machine &reduced, const InitialState &state)
+{
+  std::vector<Signal> rows;
+  for (const fem::Interface &interface : reduced.model().reduced_frame()->interfaces)
+    for (const int i : interface.coordinate)
+      if (i >= 0)
+      {
+        rows.emplace_back();
+        rows.back().on_a = {{i, 1.}};
+      }
+  LocalState local;
+  local.resize(reduced);
+  local.t = state.t;
+  reduced.events().follow_history(false);
+  reduced.gather(local.t, state.q, state.v, Eigen::VectorXd::Zero(state.q.size()), local);
+  reduced.events().start(local);
+  reduced.forces().force(local, local.p);
+  return Accelerations(reduced, rows).at(state.q, state.v, local);
 }
 
 } // namespace gestell::coupling
