@@ -3,6 +3,7 @@
 #include "apps/scene/bodies/body_types.h"
 #include "apps/scene/elements/element_types.h"
 #include "apps/scene/file/expected_values.h"
+#include "apps/scene/file/override_rules.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/joints/joint_types.h"
 #include "apps/scene/read/frame/node_interfaces.h"
@@ -324,6 +325,7 @@ Scene read_scene(const std::string &path, const std::vector<std::string> &overri
 }
 
 Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts scripts)
+try
 {
   const Parameters parameters(root.find("parameters"));
   const SceneTable table = SceneTable(root, parameters, "").declared(scene_keys());
@@ -362,6 +364,13 @@ Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts sc
   scene.warnings = table.warnings();
   warn_of_implausible_numbers(scene);
   return scene;
+}
+catch (const std::invalid_argument &error)
+{
+  const std::string changes = parameter_changes_words(root, error.what());
+  if (changes.empty())
+    throw;
+  throw std::invalid_argument(error.what() + changes);
 }
 
 } // namespace gestell::apps

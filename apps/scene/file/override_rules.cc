@@ -1,6 +1,7 @@
 #include "apps/scene/file/override_rules.h"
 
 #include <algorithm>
+#include <cctype>
 
 namespace gestell::apps
 {
@@ -32,6 +33,31 @@ void add_changes(const SceneNode &table, std::string &changes)
       add_changes(value, changes);
 }
 
+/// Whether a name occurs in an expression.
+bool occurs(const std::string &name, const std::string &text)
+{
+  const auto in_name = [&](std::size_t i)
+  { return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) || text[i] == '_'); };
+  for (std::size_t i = text.find(name); i != std::string::npos; i = text.find(name, i + 1))
+    if (!(i > 0 && in_name(i - 1)) && !in_name(i + name.size()))
+      return true;
+  return false;
+}
+
+/// What stands in double quotes.
+std::string quoted_parts(const std::string &text)
+{
+  std::string parts;
+  for (std::size_t begin = text.find('"'), end; begin != std::string::npos; begin = text.find('"', end + 1))
+  {
+    end = text.find('"', begin + 1);
+    if (end == std::string::npos)
+      break;
+    parts += text.substr(begin + 1, end - begin - 1) + ' ';
+  }
+  return parts;
+}
+
 std::string method_in(const SceneNode &table, const std::string &otherwise)
 {
   const SceneNode *method = table.find("method");
@@ -51,6 +77,29 @@ std::string changes_words(const SceneNode &table)
   if (!from_command_line(table))
     add_changes(table, changes);
   return changes.empty() ? "" : ": with " + changes;
+}
+
+std::string parameter_changes_words(const SceneNode &scene, const std::string &error)
+{
+  const SceneNode *parameters = scene.find("parameters");
+  if (!parameters)
+    return "";
+  std::string                           values = quoted_parts(error), changes;
+  std::vector<const SceneNode::Entry *> others;
+  for (const SceneNode::Entry &entry : parameters->entries)
+    others.push_back(&entry);
+  for (std::size_t i = 0; i < others.size();)
+    if (const auto &[name, value] = *others[i]; occurs(name, values))
+    {
+      values += value.text + ' ';
+      if (from_command_line(value) && error.find(value.place.file) == std::string::npos)
+        changes += (changes.empty() ? "" : ", ") + value.place.file;
+      others.erase(others.begin() + std::ptrdiff_t(i));
+      i = 0;
+    }
+    else
+      ++i;
+  return changes.empty() ? "" : " (with " + changes + ")";
 }
 
 void make_way(SceneNode &older, const SceneNode &newer)

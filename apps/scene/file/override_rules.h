@@ -12,6 +12,10 @@ bool from_command_line(const SceneNode &node);
 /// tables; "": there are none.
 std::string changes_words(const SceneNode &table);
 
+/// " (with --set parameters.F=3 kg)" for an error that quotes a value of parameters, or of others that depend on them;
+/// "": none of them was given by `--set`, or the error names it.
+std::string parameter_changes_words(const SceneNode &scene, const std::string &error);
+
 /**
  * Lets a newer layer of [run], from an extending file or the command line, replace keys of an older layer without
  * resetting each of them: another method removes the parameters of the former one; a tolerance replaces a fixed step

@@ -36,6 +36,18 @@ TEST(Messages, AboutATableNameTheOptionsThatChangedIt)
             std::string::npos);
 }
 
+/// Also of parameters on which the value depends through others.
+TEST(Messages, AboutAValueNameTheOptionsThatChangedItsParameters)
+{
+  const std::string parameters = "[parameters]\nF = \"3 N\"\nG = \"2*F\"\nother = 1\n",
+                    scene      = rotor(2., "1 s") + parameters +
+                            "[element.f]\ntype = \"friction\"\nfrom = \"shaft\"\nforce = \"G*(1 m)\"\n";
+  EXPECT_EQ(complaint(scene, {"parameters.other=2"}).find("parameters.F"), std::string::npos);
+  const std::string said = complaint(scene, {"parameters.F=3 kg"});
+  EXPECT_NE(said.find("element.f.force: "), std::string::npos) << said;
+  EXPECT_NE(said.find(" (with --set parameters.F=3 kg)"), std::string::npos) << said;
+}
+
 const std::string two_slides =
     slider_body("a", "1", "[1, 0, 0]") + slider_body("b", "1", "[1, 0, 0]") + rotor_body("w", "1", "[0, 0, 1]");
 
