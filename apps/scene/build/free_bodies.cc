@@ -108,7 +108,7 @@ std::vector<std::string> remote_joints(const Scene &scene, const coupling::Machi
     const double nearer = std::min((vector(*at) - middle_of(machine, joint.from.marker)).norm(),
                                    (vector(*at) - middle_of(machine, joint.to.marker)).norm());
     const double others = extent_without(joint, scene, machine).diagonal().norm();
-    if (nearer <= others)
+    if (nearer <= others || others == 0.) // of a machine with one place nothing is remote
       continue;
     std::ostringstream text;
     text.precision(3);
@@ -151,8 +151,8 @@ std::string free_frame(const Scene &scene, const coupling::MachineModel &machine
     ways += (ways.empty() ? "" : ", ") + name;
   const bool falls = scene.gravity != Vector3{};
   return scene.frame.place + ": no support constrains the frame as a whole at the start, so that it " +
-         (falls ? "falls under its weight" : "moves away under any load") + " " +
-         (ways.empty() ? "" : "(without elements its rigid-body modes are " + ways + ")") +
+         (falls ? "falls under its weight" : "moves away under any load") +
+         (ways.empty() ? "" : " (without elements its rigid-body modes are " + ways + ")") +
          "; give it a support ([frame.support.NAME]) or elements to the ground";
 }
 

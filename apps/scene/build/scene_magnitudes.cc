@@ -211,12 +211,12 @@ void judge_motors(const Scene &scene, const coupling::Machine &machine, Warnings
       }
 }
 
-/// g / omega^2 of the lowest elastic mode of the supported frame.
+/// g / omega^2 of the lowest elastic mode of the supported frame; prestress may soften it to nothing.
 void judge_frame(const Scene &scene, const coupling::MachineModel &machine, double size, Warnings &warnings)
 {
   const coupling::ReducedFrame *frame = machine.reduced_frame();
   const double                  g     = vector(scene.gravity).norm();
-  if (!frame || !(size > 0.))
+  if (!frame || !(size > 0.) || scene.frame.geometry.prestress)
     return;
   for (const double hz : frame->frequencies_hz)
     if (hz > 0.)

@@ -93,7 +93,8 @@ void request_stresses(const SceneTable &asking, Scene &scene)
   case FrameSource::parts:
   case FrameSource::geometry:
     if (!scene.reduction.reduces())
-      throw asking.error("stresses need a reduced frame; remove reduction.method = \"none\"");
+      throw asking.error(std::string("stresses need a reduced frame; remove reduction.method = \"") +
+                         (scene.reduction.superposition ? "modal" : "none") + "\"");
   }
   scene.frame.geometry.stress = true;
   for (coupling::FramePart &part : scene.frame.parts.parts)

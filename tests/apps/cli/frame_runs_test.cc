@@ -256,6 +256,40 @@ TEST(Story, OfAFrameFromCadNamesTheModeInTheForceOfItsSupport)
   }
 }
 
+/// A bar without supports, pulled at its tip: the section at 0.4 of its length pulls 0.4 of its mass.  Nothing
+/// vibrates.
+TEST(FreeFrame, AcceleratesWithoutVibrationAfterInertiaRelief)
+{
+  for (const char *reduction : {"method = 'none'", "modes = 4\ninertia_relief = true"})
+  {
+    const Folder folder("free_frame");
+    std::string  text = Bar().scene(folder);
+    text.erase(text.find("[frame.support.wall]"),
+               text.find("[frame.interface.tip]") - text.find("[frame.support.wall]"));
+    text += std::string("[reduction]\n") + reduction +
+            "\n[frame.cut.c]\nplane = { normal = [1, 0, 0], through = ['0.4 m', 0, 0] }\n[element.pull]\n"
+            "type = 'force'\nfrom = 'frame.tip'\ndirection = [1, 0, 0]\nconstant = '1 kN'\n[start]\nrule = 'static'\n"
+            "inertia_relief = true\n[run]\nmethod = 'bdf'\nstep = '5 us'\nend = '1 ms'\n[output]\npicture_step = 0\n"
+            "signals = { c = 'frame.cut.c' }\n";
+    expect_answer(gestell("run " + folder.file("bar.toml", text) + folder.option()), 0, {});
+    for (const double force : samples(folder, "c [N]", 1).first)
+      EXPECT_NEAR(force, 400., 1e-3) << reduction; // of 1 kN: the integrator's error, iterations to 1e-6
+  }
+}
+
+/// The forces of a section are those of the cells, and in a machine in modes those of these modes.
+TEST(ForcesWithinAFrame, AreDoubtfulThroughRigidSurfacesAndInModes)
+{
+  const Folder folder("doubtful_forces");
+  std::string  text = Bar().scene(folder) + "[frame.cut.c]\nplane = { normal = [0, 0, 1], through = [0, 0, 0] }\n" +
+                     released + "[reduction]\nmethod = 'modal'\nmodes = 4\n";
+  text.replace(text.find("'average'"), 9, "'rigid'");
+  text.replace(text.find("signals = {"), 11, "signals = { c = 'frame.cut.c.V1', R = 'frame.support.wall.z',");
+  expect_answer(gestell("run " + folder.file("bar.toml", text) + folder.option()), 0,
+                {"cut \"c\" divides the surface of the interface \"tip\", which is rigid",
+                 "forces of supports and cuts (c, R) contain only the statics of the retained modes"});
+}
+
 /// What a frame answers that does not depend on axes and units: buckling, poles, section forces, damage.
 struct Answers
 {

@@ -57,7 +57,7 @@ void require_class(double value, const std::vector<double> &classes, const std::
       nearest = c;
   if (!(std::abs(nearest - sought) <= 1e-9 * nearest)) // rounding of units
     throw std::invalid_argument(what + " has no class " + text_of(sought) + " MPa; the nearest one is " +
-                                text_of(nearest) + " MPa.");
+                                text_of(nearest) + " MPa; a factor on it is 'safety'.");
 }
 
 /// Line of slope m through (cycles, range).
