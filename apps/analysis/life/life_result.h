@@ -32,7 +32,8 @@ void describe(Visitor &v, const LifeError &x)
 {
   v("mesh", x.mesh, "1", "stress higher by the disagreement of neighbouring elements");
   v("modes", x.modes, "1", "twice the modes; null without `--life-error`");
-  v("time", x.time, "1", "a third of what every second state changes; finer integration with `--life-error`");
+  v("time", x.time, "1",
+    "a third of what every second state changes, or extremes between states; finer integration with `--life-error`");
   v("total", x.total(), "1", "product of those that are known");
 }
 
