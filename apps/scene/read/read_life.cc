@@ -244,6 +244,9 @@ void read_life(const SceneTable &scene, Scene &result)
     life.curve = read_curve(*curve);
   for (const SceneTable &own : table.table_array("weld"))
   {
+    if (result.frame.source != FrameSource::geometry)
+      throw own.error(
+          "needs a frame of one piece from 'cad', in which its surfaces are; remove the weld, or [frame.part]");
     WeldRequest weld = read_weld(own, result.frame.geometry);
     if (weld.name == skin_name || std::any_of(life.welds.begin(), life.welds.end(),
                                               [&](const WeldRequest &other) { return other.name == weld.name; }))
