@@ -38,7 +38,7 @@ const Expected *expected_of(const std::string &key, const Kind &kind)
   static const Expected                        friction{0., 2., "dry metal has 0.05 to 0.5, rubber on asphalt 1"};
   static const std::map<std::string, Expected> of_keys = {
       {"synchronous_speed", {0., 400., "motors at 50 or 60 Hz mains reach at most 3600 1/min = 377 rad/s"}},
-      {"thickness", {1e-6, 0.1, "presses and shears cut sheets and plates up to 60 mm"}},
+      {"thickness", {1e-6, 0.5, "presses cut sheets up to 60 mm, frames have plates up to 300 mm"}},
       {"shear_resistance", {1e5, 5e9, "sheets from paper to hardened steel have 1 MPa to 2 GPa"}},
       {"bulk_modulus", {1e7, 1e10, "liquids have 0.5 to 3 GPa, with bubbles of air less"}},
       {"ratio of damping", {0., 0.2, "welded and bolted frames have 0.001 to 0.05, rubber up to 0.2"}},
