@@ -365,6 +365,10 @@ try
   warn_of_implausible_numbers(scene);
   return scene;
 }
+catch (const IdleParameter &)
+{
+  throw;
+}
 catch (const std::invalid_argument &error)
 {
   const std::string changes = parameter_changes_words(root, error.what());

@@ -198,11 +198,11 @@ std::string forces_in_modes(const Scene &scene)
 {
   std::string names;
   for (const SignalRequest &signal : scene.signals)
-    for (const char *family : {".support.", ".cut."})
-      if (signal.path.find(family) != std::string::npos)
+    for (const char *family : {".support.", ".cut.", ".joint."})
+      if (signal.path.rfind("frame.", 0) == 0 && signal.path.find(family) != std::string::npos)
         names += (names.empty() ? "" : ", ") + signal.name;
   return names.empty() ? ""
-                       : "forces of supports and cuts (" + names +
+                       : "forces of supports, cuts and joints of the frame (" + names +
                              ") contain only the statics of the retained modes and need many more of them than "
                              "deflections do; method = \"craig-bampton\" contains the statics of all";
 }
@@ -251,18 +251,13 @@ Eigen::VectorXd PreparedMachine::project(const Eigen::VectorXd &state) const
 coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepared)
 {
   const coupling::InitialState state = initial_state(scene, prepared.small());
-  if (!prepared.in_modes && !prepared.companion)
-    return state;
-  Eigen::VectorXd acceleration;
-  if (scene.start.rule == StartRule::rest && scene.start.inertia_relief && prepared.small().model().reduced_frame())
-    acceleration = coupling::acceleration_of_interfaces(prepared.small(), state);
   if (!prepared.in_modes)
-    return coupling::expand_statically(prepared.machine, *prepared.companion, state, acceleration);
+    return prepared.companion ? coupling::expand_statically(prepared.machine, *prepared.companion, state) : state;
   const MachineInModes &modes = *prepared.in_modes;
   if (!modes.whole)
     return start_in_modes(scene, prepared.machine, *prepared.companion, modes.projection, state);
   return start_in_modes(scene, prepared.machine, *modes.whole, modes.projection,
-                        coupling::expand_statically(*modes.whole, *prepared.companion, state, acceleration));
+                        coupling::expand_statically(*modes.whole, *prepared.companion, state));
 }
 
 std::string mesh_text(const FrameRequest &frame)

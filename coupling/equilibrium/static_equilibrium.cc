@@ -76,11 +76,11 @@ public:
     inertia_ = M_ * floating_;
   }
 
-  /// States the acceleration of an unsupported machine.
-  void tell_relief()
+  /// The acceleration R R^T (f_t + W p) of an unsupported machine, which a note states; empty for others.
+  VectorXd relief()
   {
     if (floating_.cols() == 0)
-      return;
+      return {};
     MatrixXd saddle;
     VectorXd residual;
     balance_.evaluate(q_, lambda_, 1., saddle, residual);
@@ -97,6 +97,7 @@ public:
       text << (d > 0 ? ", " : "") << (mass > 0. ? translations.col(d).dot(acceleration) / mass : 0.);
     }
     notes_.push_back(text.str() + "] m/s^2");
+    return floating_ * acceleration;
   }
 
   const VectorXd           &q() const { return q_; }
@@ -406,8 +407,8 @@ InitialState static_equilibrium(Machine &machine, const InitialState &assembled,
   if (floating == Floating::relieved)
     equilibrium.relieve();
   equilibrium.solve();
-  equilibrium.tell_relief();
   InitialState state = assembled;
+  state.acceleration = equilibrium.relief();
   state.q            = equilibrium.q();
   state.v            = drift == Drift::quasistatic ? equilibrium.drift() : Eigen::VectorXd::Zero(machine.size()).eval();
   state.notes        = equilibrium.notes();

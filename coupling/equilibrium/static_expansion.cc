@@ -1,7 +1,6 @@
 #include "coupling/equilibrium/static_expansion.h"
 
 #include "coupling/algebra/sparse_cholesky.h"
-#include "coupling/machine/accelerations.h"
 
 namespace gestell::coupling
 {
@@ -26,8 +25,7 @@ std::vector<std::pair<int, int>> matching_interfaces(const Machine &full, const 
 }
 } // namespace
 
-InitialState expand_statically(const Machine &full, const Machine &reduced, const InitialState &state,
-                               const Eigen::VectorXd &acceleration)
+InitialState expand_statically(const Machine &full, const Machine &reduced, const InitialState &state)
 {
   InitialState expanded{state.t, Eigen::VectorXd::Zero(full.size()), Eigen::VectorXd::Zero(full.size()), state.settled,
                         state.notes};
@@ -37,15 +35,16 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
   expanded.q.tail(n_bodies) = state.q.tail(n_bodies);
   expanded.v.tail(n_bodies) = state.v.tail(n_bodies);
 
-  Eigen::VectorXd  rigid = Eigen::VectorXd::Zero(n_frame); // q''
-  std::vector<int> place(n_frame, 0);                      // of an inner coordinate in q2, -1 for q1
+  const bool       relieved = state.acceleration.size() > 0;
+  Eigen::VectorXd  rigid    = Eigen::VectorXd::Zero(n_frame); // q''
+  std::vector<int> place(n_frame, 0);                         // of an inner coordinate in q2, -1 for q1
   for (const auto &[mine, other] : matching_interfaces(full, reduced))
   {
     expanded.q[mine] = state.q[other];
     expanded.v[mine] = state.v[other];
     place[mine]      = -1;
-    if (acceleration.size() > 0)
-      rigid[mine] = acceleration[other];
+    if (relieved)
+      rigid[mine] = state.acceleration[other];
   }
   int n2 = 0;
   for (int &i : place)
@@ -54,17 +53,19 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
 
   Eigen::VectorXd load(full.size());
   full.linear().excitation().at(state.t, load);
-  const Eigen::VectorXd               force = load.head(n_frame) - C * expanded.q.head(n_frame);
-  const Eigen::VectorXd               rate  = -(C * expanded.v.head(n_frame));
-  const Eigen::VectorXd               turn  = -(C * rigid);
-  Eigen::MatrixXd                     inner(n2, 3);
+  const Eigen::VectorXd               force    = load.head(n_frame) - C * expanded.q.head(n_frame);
+  const Eigen::VectorXd               rate     = -(C * expanded.v.head(n_frame));
+  const Eigen::VectorXd               of_rigid = -(C * rigid);
+  Eigen::MatrixXd                     inner(n2, relieved ? 3 : 2);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(C.nonZeros());
   for (int j = 0; j < n_frame; ++j)
   {
     if (place[j] < 0)
       continue;
-    inner.row(place[j]) << force[j], rate[j], turn[j];
+    inner.row(place[j]).head<2>() << force[j], rate[j];
+    if (relieved)
+      inner(place[j], 2) = of_rigid[j];
     for (Eigen::SparseMatrix<double>::InnerIterator it(C, j); it; ++it)
       if (place[it.row()] >= 0)
         entries.emplace_back(place[it.row()], place[j], it.value());
@@ -73,7 +74,7 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
   C22.setFromTriplets(entries.begin(), entries.end());
   const SparseCholesky factor(C22);
   factor.solve_in_place(inner);
-  if (acceleration.size() > 0)
+  if (relieved)
   {
     for (int i = 0; i < n_frame; ++i)
       if (place[i] >= 0)
@@ -93,26 +94,6 @@ InitialState expand_statically(const Machine &full, const Machine &reduced, cons
       expanded.v[i] = inner(place[i], 1);
     }
   return expanded;
-}
-
-Eigen::VectorXd acceleration_of_interfaces(Machine &reduced, const InitialState &state)
-{
-  std::vector<Signal> rows;
-  for (const fem::Interface &interface : reduced.model().reduced_frame()->interfaces)
-    for (const int i : interface.coordinate)
-      if (i >= 0)
-      {
-        rows.emplace_back();
-        rows.back().on_a = {{i, 1.}};
-      }
-  LocalState local;
-  local.resize(reduced);
-  local.t = state.t;
-  reduced.events().follow_history(false);
-  reduced.gather(local.t, state.q, state.v, Eigen::VectorXd::Zero(state.q.size()), local);
-  reduced.events().start(local);
-  reduced.forces().force(local, local.p);
-  return Accelerations(reduced, rows).at(state.q, state.v, local);
 }
 
 } // namespace gestell::coupling

@@ -3,8 +3,6 @@
 #include "coupling/machine/initial_state.h"
 #include "coupling/machine/machine.h"
 
-#include <Eigen/Core>
-
 namespace gestell::coupling
 {
 
@@ -14,17 +12,11 @@ namespace gestell::coupling
  *
  *     q2 = C22^-1 (f_s2 - C21 q1 - (M q'')_2),     q2' = -C22^-1 C21 q1',     q2'' = -C22^-1 C21 q1'',
  *
- * which is exact for a start in equilibrium (5.5.3/15; f_s2: weight of the frame).
+ * which is exact for a start in equilibrium (5.5.3/15; f_s2: weight of the frame; q'' of inertia relief, which moves
+ * the frame as a rigid body, zero without it).
  *
- * @param acceleration  q'' of the reduced machine [n], a rigid-body motion, for a start with inertia relief; empty:
- * none
  * @throws std::invalid_argument if the interfaces of both frames differ.
  */
-InitialState expand_statically(const Machine &full, const Machine &reduced, const InitialState &state,
-                               const Eigen::VectorXd &acceleration = {});
-
-/// Accelerations of the interfaces of the reduced frame at the beginning of a motion [n]; others are zero or right,
-/// too.
-Eigen::VectorXd acceleration_of_interfaces(Machine &reduced, const InitialState &state);
+InitialState expand_statically(const Machine &full, const Machine &reduced, const InitialState &state);
 
 } // namespace gestell::coupling

@@ -1,6 +1,7 @@
 #include "coupling/machine/accelerations.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -96,24 +97,22 @@ Accelerations::Accelerations(const SecondOrderSystem &system, const std::vector<
   const bool regular = mass_ != nullptr;
   if (!regular)
     mass_ = factor_of_brief_step(system);
+  // Rows that are cheaper than a solution: two products with sparse matrices and its factor cost 40 n multiplications
+  // or more, a row 2 n.  A singular M has no other way.
+  const Eigen::Index most_rows = regular ? 20 : n;
   Q_.resize(n, 0);
   for (const Signal &signal : signals)
-    add_rows(signal, n, [this](const Eigen::VectorXd &row) { add_row(row); });
+    add_rows(signal, n, [&](const Eigen::VectorXd &row) { add_row(row, most_rows); });
   if (by_rows_)
     solve_rows(regular);
-  else if (!regular)
-    refuse_singular(system);
 }
 
 /// Extends Q by what it does not contain of a row, by the method of Gram and Schmidt.
-void Accelerations::add_row(Eigen::VectorXd row)
+void Accelerations::add_row(Eigen::VectorXd row, Eigen::Index most_rows)
 {
   if (!by_rows_)
     return;
-  // Rows that are cheaper than a solution: two products with sparse matrices and its factor cost 40 n multiplications
-  // or more, a row 2 n.
-  constexpr Eigen::Index most_rows = 20;
-  constexpr double       contained = 1e-12; // share of a row that is rounding of its products with Q
+  constexpr double contained = 1e-12; // share of a row that is rounding of its products with Q
   row.normalize();
   for (int twice = 0; twice < 2; ++twice)
   {
@@ -137,16 +136,20 @@ void Accelerations::solve_row(const Eigen::VectorXd &s, bool regular)
   for (const int i : system_.linear().virtual_coordinates())
     f_[i] = 0.;
   mass_->solve(f_, a_);
-  constexpr double solved = 1e-13; // of the row: rounding
-  constexpr int    most   = 20;    // corrections, each smaller by (h omega)^2
-  for (int i = 0; !regular; ++i)
+  constexpr double solved = 1e-9; // of the row: far below integrators, far above the rounding of M y
+  // Each correction is smaller than the one before by the larger of (h omega)^2 and h b/m, until they are rounding.
+  for (double before = std::numeric_limits<double>::infinity(); !regular;)
   {
     system_.linear().mass_times(a_, product_);
     const Eigen::VectorXd left = f_ - product_;
-    if (left.norm() <= solved)
-      break;
-    if (i == most || !left.allFinite())
+    if (const double rest = left.norm(); !(rest < 0.5 * before))
+    {
+      if (rest <= solved)
+        break;
       refuse_singular(system_);
+    }
+    else
+      before = rest;
     mass_->solve(left, product_);
     a_ += product_;
   }

@@ -32,7 +32,7 @@ class Accelerations
 public:
   /// Factorises M.  Coordinates without mass are allowed if their accelerations are not read.
   /// @param signals  that read the accelerations
-  /// @throws std::invalid_argument if a row reads them, or if M is singular and there are many rows
+  /// @throws std::invalid_argument if a row reads them
   Accelerations(const SecondOrderSystem &system, const std::vector<Signal> &signals);
 
   /// @param q,     v   [n]
@@ -46,7 +46,7 @@ public:
                             Eigen::VectorXd &v);
 
 private:
-  void add_row(Eigen::VectorXd row);
+  void add_row(Eigen::VectorXd row, Eigen::Index most_rows);
   void solve_row(const Eigen::VectorXd &s, bool regular);
   void solve_rows(bool regular);
 

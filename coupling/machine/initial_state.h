@@ -17,6 +17,8 @@ struct InitialState
 
   std::vector<std::string> notes{}; ///< how it was found, for the user
 
+  Eigen::VectorXd acceleration{}; ///< [n] of a floating machine whose inertia balances its loads; empty: none
+
   double still = 0.; ///< [m/s, rad/s] sliding speed treated as zero: see EventOptions
 };
 

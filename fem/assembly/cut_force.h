@@ -35,7 +35,7 @@ namespace gestell::fem
  * rigid interface or a support that reaches to both sides carries force that is not included.  About a prestressed
  * state moments also contain the stresses above times their displacement relative to the section.
  *
- * @param supported  nodes of foundations.
+ * @param supported  nodes of supports.
  * @param rayleigh   alpha [1/s] and beta [s] of all cells.
  * @throws std::invalid_argument for a zero normal, a first direction along it and a plane that does not cut the frame.
  */

@@ -219,7 +219,8 @@ std::vector<std::string> cuts_of_rigid_surfaces(const std::vector<CutSpecificati
   for (const CutSpecification &cut : cuts)
     for (const CoupledPatch &one : coupled)
     {
-      if (one.specification.coupling != InterfaceCoupling::rigid)
+      if (const auto coupling = one.specification.coupling;
+          coupling != InterfaceCoupling::rigid && coupling != InterfaceCoupling::flexible)
         continue;
       const Eigen::Map<const Eigen::Vector3d> normal(cut.normal.data()), through(cut.through.data());
       double                                  low = 0., high = 0.;
@@ -232,7 +233,7 @@ std::vector<std::string> cuts_of_rigid_surfaces(const std::vector<CutSpecificati
       if (low < -tolerance && high > tolerance)
         notes.push_back("cut \"" + cut.name + "\" divides the surface of the " + one.specification.what + " \"" +
                         one.specification.name +
-                        "\", which is rigid and carries force past the section: its forces "
+                        "\", which carries force past the section: its forces "
                         "are those of the cells only; move the plane, or use coupling = \"average\"");
     }
   return notes;

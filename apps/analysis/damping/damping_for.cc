@@ -1,4 +1,5 @@
 #include "apps/analysis/analysis_entry.h"
+#include "apps/scene/file/override_rules.h"
 #include "apps/session/option_value.h"
 #include "apps/session/prepared_machine.h"
 #include "coupling/modes/modes.h"
@@ -151,12 +152,12 @@ public:
                                   " has no frame whose damping it determines; a [frame] from CAD, parts or matrices is "
                                   "needed");
     if (!ratios->by_frequency.empty())
-      throw std::invalid_argument(scene.frame.place +
-                                  ".damping.ratio: depends on the frequency; --damping-for finds one ratio for the "
+      throw std::invalid_argument(place_of_key(scene.frame.place, "damping.ratio") +
+                                  ": depends on the frequency; --damping-for finds one ratio for the "
                                   "modes of the frame: give a number, or single modes in `modes`");
     if (replaces_other_damping(scene.frame))
-      throw std::invalid_argument(scene.frame.place +
-                                  ".damping: is Rayleigh damping or a matrix; --damping-for finds the `ratio` that "
+      throw std::invalid_argument(place_of_key(scene.frame.place, "damping") +
+                                  ": is Rayleigh damping or a matrix; --damping-for finds the `ratio` that "
                                   "takes its place: give { ratio = 0 } instead");
   }
 

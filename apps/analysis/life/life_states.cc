@@ -141,7 +141,7 @@ KeptLife kept_life(const fs::path &folder, const std::vector<std::string> &chang
   std::ifstream in(kept.file, std::ios::binary);
   if (!in)
     throw std::invalid_argument(folder.string() + " contains no " + life_states_file +
-                                ", the states of a run with [life]; " + kept_folders(folder.parent_path()));
+                                ", the states of a run with [life]; " + kept_folders((folder / "").parent_path().parent_path()));
   bool has_state = false;
   for (std::string line; !has_state && std::getline(in, line); has_state = line.find(" state") == 64)
     if (line.rfind(scene_line, 0) == 0)

@@ -183,32 +183,12 @@ SurfaceDirections across(const Vector3d &normal, const Vector3d &direction)
   return {normal, normal.cross(direction).normalized()};
 }
 
-std::vector<WeldPoint> area(const WeldRequest &weld, const std::vector<char> &on, const coupling::ReducedStress &stress,
-                            const LifeSkin &skin)
+std::string position_text(const Vector3d &x)
 {
-  std::vector<WeldPoint> chosen;
-  bool                   is_normal = false;
-  for (std::size_t i = 0; i < on.size(); ++i)
-    if (const Vector3d &normal = skin.directions[i].normal; on[i] && stress.nearby[i] < 0)
-    {
-      if (weld.direction && normal.isZero()) // an edge
-        continue;
-      const auto direction = weld.direction ? in_surface(vector_of(*weld.direction), normal) : std::nullopt;
-      is_normal            = is_normal || (weld.direction && !direction);
-      if (!weld.direction || direction)
-        chosen.push_back({{{int(i), 1.}}, int(i), direction ? across(normal, *direction) : skin.directions[i]});
-    }
-  if (chosen.empty() && is_normal)
-    refuse_normal_direction(weld);
-  return chosen;
+  return "(" + short_text(x[0]) + " " + short_text(x[1]) + " " + short_text(x[2]) + ")";
 }
 
-std::string in_mm(double length)
-{
-  return short_text(1e3 * length, 3) + " mm";
-}
-
-/// Where a line is not assessed.
+/// Where a weld is not assessed.
 struct Omitted
 {
   std::size_t n   = 0;
@@ -219,11 +199,45 @@ struct Omitted
     ++n;
     low = low.cwiseMin(x), high = high.cwiseMax(x);
   }
+  std::string words(const WeldRequest &weld, std::size_t assessed) const
+  {
+    return "life: the weld '" + weld.name + "' is not assessed at " + std::to_string(n) + " of " +
+           count_text(n + assessed, "point") + ", between " + position_text(low) + " and " + position_text(high) + ": ";
+  }
 };
 
-std::string position_text(const Vector3d &x)
+std::string of_normal_direction(const WeldRequest &weld, const Omitted &there, std::size_t assessed)
 {
-  return "(" + short_text(x[0]) + " " + short_text(x[1]) + " " + short_text(x[2]) + ")";
+  return there.words(weld, assessed) + "its 'direction' is normal to '" + weld.surfaces.front() +
+         "' there; assess this part as a weld of its own";
+}
+
+std::vector<WeldPoint> area(const WeldRequest &weld, const std::vector<char> &on, const coupling::ReducedStress &stress,
+                            const LifeSkin &skin, std::vector<std::string> &doubts)
+{
+  std::vector<WeldPoint> chosen;
+  Omitted                normal_to; // the direction
+  for (std::size_t i = 0; i < on.size(); ++i)
+    if (const Vector3d &normal = skin.directions[i].normal; on[i] && stress.nearby[i] < 0)
+    {
+      if (weld.direction && normal.isZero()) // an edge
+        continue;
+      const auto direction = weld.direction ? in_surface(vector_of(*weld.direction), normal) : std::nullopt;
+      if (weld.direction && !direction)
+        normal_to.add(skin.position[i]);
+      if (!weld.direction || direction)
+        chosen.push_back({{{int(i), 1.}}, int(i), direction ? across(normal, *direction) : skin.directions[i]});
+    }
+  if (chosen.empty() && normal_to.n > 0)
+    refuse_normal_direction(weld);
+  if (normal_to.n > 0)
+    doubts.push_back(of_normal_direction(weld, normal_to, chosen.size()));
+  return chosen;
+}
+
+std::string in_mm(double length)
+{
+  return short_text(1e3 * length, 3) + " mm";
 }
 
 std::vector<std::string> doubts_of(const WeldRequest &weld, double largest, bool reentrant, const Omitted &omitted,
@@ -241,10 +255,8 @@ std::vector<std::string> doubts_of(const WeldRequest &weld, double largest, bool
                      ", too large for its distances; use elements of " + in_mm(allowed) +
                      " there, or larger distances (IIW)");
   if (omitted.n > 0 && assessed > 0)
-    doubts.push_back(name + "is not assessed at " + std::to_string(omitted.n) + " of " +
-                     count_text(omitted.n + assessed, "point") + " of its line, between " + position_text(omitted.low) +
-                     " and " + position_text(omitted.high) + ": '" + weld.surfaces.front() +
-                     "' is narrower there than " + in_mm(weld.distances.back() * weld.thickness) +
+    doubts.push_back(omitted.words(weld, assessed) + "'" + weld.surfaces.front() + "' is narrower there than " +
+                     in_mm(weld.distances.back() * weld.thickness) +
                      "; give smaller 'distances', or assess this part as a weld of its own");
   return doubts;
 }
@@ -253,7 +265,7 @@ std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vect
                             std::vector<std::string> &doubts)
 {
   double                 largest = 0.;
-  Omitted                omitted;
+  Omitted                omitted, normal_to; // too narrow; the direction
   bool                   reentrant = false;
   std::vector<WeldPoint> chosen;
   const auto             first = triangles_on(on[0], skin), second = triangles_on(on[1], skin);
@@ -271,7 +283,10 @@ std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vect
     {
       const auto given = in_surface(vector_of(*weld.direction), here->normal);
       if (!given)
-        refuse_normal_direction(weld);
+      {
+        normal_to.add(skin.position[i]);
+        continue;
+      }
       direction = *given;
     }
     constexpr double corner = 0.1; // sine of 6 degrees: a chord of a curved surface is not a corner
@@ -299,7 +314,11 @@ std::vector<WeldPoint> line(const WeldRequest &weld, const std::vector<std::vect
     }
     chosen.push_back({std::move(weights), int(i), across(here->normal, direction)});
   }
+  if (chosen.empty() && normal_to.n > 0)
+    refuse_normal_direction(weld);
   doubts = doubts_of(weld, largest, reentrant, omitted, chosen.size());
+  if (normal_to.n > 0)
+    doubts.push_back(of_normal_direction(weld, normal_to, chosen.size()));
   return chosen;
 }
 
@@ -330,7 +349,8 @@ WeldPoints weld_points(const WeldRequest &weld, const std::map<std::string, fem:
               count_text(std::size_t(std::count(on.back().begin(), on.back().end(), 1)), "point");
   }
   std::vector<std::string>     doubts;
-  const std::vector<WeldPoint> chosen = on.size() == 1 ? area(weld, on[0], stress, skin) : line(weld, on, skin, doubts);
+  const std::vector<WeldPoint> chosen =
+      on.size() == 1 ? area(weld, on[0], stress, skin, doubts) : line(weld, on, skin, doubts);
   if (chosen.empty())
     throw std::invalid_argument(
         weld.place + ": the weld '" + weld.name + "' matches no point of the skin (" + counts + "); " +

@@ -1,6 +1,7 @@
 #include "apps/scene/build/scene_magnitudes.h"
 
 #include "apps/scene/build/build_measures.h"
+#include "apps/scene/file/override_rules.h"
 #include "coupling/simulation/checks/element_scales.h"
 #include "fem/values/number_text.h"
 #include "mechanism/elements/connecting_rod.h"
@@ -103,14 +104,14 @@ void judge_bodies(const Scene &scene, const coupling::MachineModel &machine, dou
       constexpr double least_gyration = 0.01, most_gyration = 1.;
       const double     excess = std::max(least_gyration * own / arm, size > 0. ? arm / (most_gyration * size) : 0.);
       if (excess > 1.)
-        warnings.push_back({body.place + ".inertia",
+        warnings.push_back({place_of_key(body.place, "inertia"),
                             "with its mass gives a radius of gyration of " + size_text(arm) + "; expected: " +
                                 size_text(least_gyration * own) + " to " + size_text(most_gyration * size) +
                                 " for the points of the body and the size of the machine; check the units of both",
                             excess});
     }
     if (body.unbalance && body.radius > 0. && body.unbalance->amount * body.radius > body.inertia)
-      warnings.push_back({body.place + ".unbalance",
+      warnings.push_back({place_of_key(body.place, "unbalance"),
                           "is " + short_text(body.unbalance->amount) + " kg m; expected: at most " +
                               short_text(body.inertia / body.radius) +
                               " kg m, with which a mass at the rim alone has the inertia of the rotor; check the unit",
@@ -211,7 +212,8 @@ void judge_motors(const Scene &scene, const coupling::Machine &machine, Warnings
       }
 }
 
-/// g / omega^2 of the lowest elastic mode of the supported frame; prestress may soften it to nothing.
+/// g / omega^2 of the lowest elastic mode of the supported frame.  Prestress softens it as near to nothing as its
+/// buckling factor is to one.
 void judge_frame(const Scene &scene, const coupling::MachineModel &machine, double size, Warnings &warnings)
 {
   const coupling::ReducedFrame *frame = machine.reduced_frame();
@@ -270,7 +272,7 @@ double machine_size(const Scene &scene, const coupling::MachineModel &machine)
 std::string key_place(const Scene &scene, const std::string &object, const std::string &key)
 {
   const auto place = scene.element_places.find(object);
-  return (place == scene.element_places.end() ? object : place->second) + "." + key;
+  return place_of_key(place == scene.element_places.end() ? object : place->second, key);
 }
 
 std::string yielding_text(double size)
@@ -304,7 +306,7 @@ std::vector<UnexpectedValue> magnitudes_of_modes(const Scene &scene, const std::
       const bool   creeps = std::isnan(mode.damping_ratio);
       const double ratio  = creeps ? 1. : mode.damping_ratio; // or more
       warnings.push_back(
-          {scene.frame.place + ".damping",
+          {place_of_key(scene.frame.place, "damping"),
            "damps the mode of the frame at " + short_text(mode.frequency_hz) + " Hz by a ratio of " +
                short_text(ratio) + (creeps ? " or more" : "") + "; expected: at most " +
                short_text(most_frame_damping) +

@@ -79,6 +79,12 @@ std::string changes_words(const SceneNode &table)
   return changes.empty() ? "" : ": with " + changes;
 }
 
+std::string place_of_key(const std::string &table_place, const std::string &key)
+{
+  std::string place = table_place;
+  return place.insert(std::min(place.find(": with --set "), place.size()), "." + key);
+}
+
 std::string parameter_changes_words(const SceneNode &scene, const std::string &error)
 {
   const SceneNode *parameters = scene.find("parameters");

@@ -12,6 +12,10 @@ bool from_command_line(const SceneNode &node);
 /// tables; "": there are none.
 std::string changes_words(const SceneNode &table);
 
+/// The place of a key of a table with this place: "press.toml:9: element.rod" becomes "press.toml:9: element.rod.gap",
+/// before the words of changes.
+std::string place_of_key(const std::string &table_place, const std::string &key);
+
 /// " (with --set parameters.F=3 kg)" for an error that quotes a value of parameters, or of others that depend on them;
 /// "": none of them was given by `--set`, or the error names it.
 std::string parameter_changes_words(const SceneNode &scene, const std::string &error);

@@ -168,7 +168,7 @@ CurveRequest read_curve(const SceneTable &table)
   return curve;
 }
 
-void require_whole(const SceneTable &table, double repetitions)
+void require_count(const SceneTable &table, double repetitions)
 {
   constexpr double most = 9e15; // counts above are rounded
   if (!(repetitions >= 1. && repetitions <= most))
@@ -239,7 +239,7 @@ void read_life(const SceneTable &scene, Scene &result)
   life.miner       = table.choice("miner");
   life.measure     = table.choice("measure");
   life.residue     = table.choice("residue");
-  require_whole(table, life.repetitions);
+  require_count(table, life.repetitions);
   if (const auto curve = table.optional_table("curve"))
     life.curve = read_curve(*curve);
   for (const SceneTable &own : table.table_array("weld"))
@@ -258,7 +258,7 @@ void read_life(const SceneTable &scene, Scene &result)
     life.blocks.push_back(block.filled<BlockRequest>());
     life.blocks.back().file  = block.file("scene");
     life.blocks.back().place = block.place();
-    require_whole(block, life.blocks.back().repetitions);
+    require_count(block, life.blocks.back().repetitions);
   }
   const auto ignores_mean = [](const CurveRequest &curve)
   { return curve.notch_class || (!curve.points.empty() && !curve.ratio); };

@@ -179,8 +179,10 @@ ReducedModel reduce_prestressed_in_parts(fem::Discretisation &frame, const fem::
   {
     reduced = reduce_in_parts(stressed.matrices, about, options, call);
   }
-  catch (const std::invalid_argument &) // which knows no factor
+  catch (const std::invalid_argument &failure) // one of buckling, perhaps of a child process, knows no factor
   {
+    if (std::string(failure.what()).find("prestress beyond buckling") == std::string::npos)
+      throw;
     PartsCall unstressed = call;
     unstressed.prestress.clear();
     bound(reduce_in_parts(frame.matrices, parts, options, unstressed), 0.);

@@ -63,6 +63,8 @@ Recipe recipe_of(PartOfFrame &part, const PartModes &modes)
   swap();
   recipe.push_back(
       {"interface of the part", Sha256().update(part.held.data(), sizeof(int) * part.held.size()).hexadecimal()});
+  if (!part.forces.empty()) // their damping contains alpha M u'
+    recipe.push_back({"mass-proportional damping", Sha256().update(&part.alpha, sizeof part.alpha).hexadecimal()});
   return recipe;
 }
 

@@ -285,9 +285,10 @@ TEST(ForcesWithinAFrame, AreDoubtfulThroughRigidSurfacesAndInModes)
                      released + "[reduction]\nmethod = 'modal'\nmodes = 4\n";
   text.replace(text.find("'average'"), 9, "'rigid'");
   text.replace(text.find("signals = {"), 11, "signals = { c = 'frame.cut.c.V1', R = 'frame.support.wall.z',");
-  expect_answer(gestell("run " + folder.file("bar.toml", text) + folder.option()), 0,
-                {"cut \"c\" divides the surface of the interface \"tip\", which is rigid",
-                 "forces of supports and cuts (c, R) contain only the statics of the retained modes"});
+  expect_answer(
+      gestell("run " + folder.file("bar.toml", text) + folder.option()), 0,
+      {"cut \"c\" divides the surface of the interface \"tip\", which carries force",
+       "forces of supports, cuts and joints of the frame (c, R) contain only the statics of the retained modes"});
 }
 
 /// What a frame answers that does not depend on axes and units: buckling, poles, section forces, damage.

@@ -118,7 +118,7 @@ TEST(WeldPoints, PartsWhereTheSurfaceIsTooNarrowAreNamed)
   ASSERT_EQ(found.doubts.size(), 1u);
   EXPECT_EQ(
       found.doubts.front(),
-      "life: the weld 'seam' is not assessed at 5 of 11 points of its line, between (0 0.6 0) and (0 1 0): "
+      "life: the weld 'seam' is not assessed at 5 of 11 points, between (0 0.6 0) and (0 1 0): "
       "'floor' is narrower there than 720 mm; give smaller 'distances', or assess this part as a weld of its own");
 }
 
