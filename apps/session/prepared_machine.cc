@@ -193,20 +193,6 @@ void keep_stable_step(PreparedMachine &prepared, RunRequest &run)
 namespace
 {
 
-/// Signals of forces within the frame in a machine in modes.
-std::string forces_in_modes(const Scene &scene)
-{
-  std::string names;
-  for (const SignalRequest &signal : scene.signals)
-    for (const char *family : {".support.", ".cut.", ".joint."})
-      if (signal.path.rfind("frame.", 0) == 0 && signal.path.find(family) != std::string::npos)
-        names += (names.empty() ? "" : ", ") + signal.name;
-  return names.empty() ? ""
-                       : "forces of supports, cuts and joints of the frame (" + names +
-                             ") contain only the statics of the retained modes and need many more of them than "
-                             "deflections do; method = \"craig-bampton\" contains the statics of all";
-}
-
 /// Adds superposition, if the scene requests it, and the warnings.
 PreparedMachine finished(const Scene &scene, PreparedMachine prepared, const coupling::Progress &progress)
 {
@@ -214,8 +200,6 @@ PreparedMachine finished(const Scene &scene, PreparedMachine prepared, const cou
   {
     tell(progress, "modes of the machine");
     prepared = in_modes(scene, std::move(prepared));
-    if (const std::string text = forces_in_modes(scene); !text.empty())
-      prepared.warnings.push_back("modal superposition: " + text);
   }
   add_warnings(scene, prepared);
   return prepared;

@@ -53,6 +53,20 @@ std::string lost(const std::string &energy, double whole, double in_modes)
   return text.str();
 }
 
+/// What signals of forces within the frame lack in a machine in modes; empty: there are none.
+std::string forces_in_modes(const Scene &scene)
+{
+  std::string names;
+  for (const SignalRequest &signal : scene.signals)
+    for (const char *family : {".support.", ".cut.", ".joint."})
+      if (signal.path.rfind("frame.", 0) == 0 && signal.path.find(family) != std::string::npos)
+        names += (names.empty() ? "" : ", ") + signal.name;
+  return names.empty() ? ""
+                       : "modal superposition: forces of supports, cuts and joints of the frame (" + names +
+                             ") contain only the statics of the retained modes and need many more of them than "
+                             "deflections do; method = \"craig-bampton\" contains the statics of all";
+}
+
 double energy_of(const coupling::Machine &machine, const Eigen::VectorXd &x, bool kinetic)
 {
   Eigen::VectorXd product(x.size());
@@ -85,6 +99,8 @@ SuperposedMachine superposed(const Scene &scene, const coupling::Machine &whole,
   result.projection                                    = mass_projection(whole, found.modes.V);
   result.V                                             = std::move(found.modes.V);
   std::tie(result.largest_step, result.shortest_decay) = largest_steps(result.machine);
+  if (const std::string text = forces_in_modes(scene); !text.empty())
+    result.notes.push_back(text);
   return result;
 }
 

@@ -1,5 +1,6 @@
 // What a scene may say in more than one way, and where a message points to.
 
+#include "apps/scene/file/override_rules.h"
 #include "apps/scene/file/written_text.h"
 #include "tests/support/scene_motion.h"
 #include "tests/support/test.h"
@@ -10,6 +11,13 @@ namespace
 {
 
 using test::complaint;
+
+TEST(PlaceOfAKey, IsBeforeTheOptionsThatChangedItsTable)
+{
+  EXPECT_EQ(apps::place_of_key("a.toml:3: frame", "damping"), "a.toml:3: frame.damping");
+  EXPECT_EQ(apps::place_of_key("a.toml:3: frame: with --set frame.unit=1 mm", "damping"),
+            "a.toml:3: frame.damping: with --set frame.unit=1 mm");
+}
 
 TEST(Messages, TellAFormulaWhereAValueIsNeeded)
 {

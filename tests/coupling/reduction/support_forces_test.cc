@@ -257,6 +257,23 @@ TEST_F(ForcesInParts, AndSectionsBalanceTheInertiaOfEveryMotionWhateverModesAreO
       }
 }
 
+/// Rows of a foundation depend on alpha, but no matrix of a part does.
+TEST_F(ForcesInParts, FollowMassProportionalDampingThroughTheCache)
+{
+  Bar bar = damped_bars().back();
+  bar.specification.cuts.clear();
+  const auto row = [&](double alpha)
+  {
+    bar.specification.rayleigh_mass = alpha;
+    return output_of(model_of(bar, {}, 3, 2).frame, "support.feet.x").on_v;
+  };
+  const VectorXd with = row(4.), without = row(0.);
+  for (const auto &file : std::filesystem::directory_iterator(folder))
+    std::filesystem::remove_all(file);
+  EXPECT_EQ(without, row(0.));
+  EXPECT_NE(with, without);
+}
+
 TEST(SupportForces, AndSectionsOfAnUnreducedFrameBalanceModalDamping)
 {
   std::srand(2);
