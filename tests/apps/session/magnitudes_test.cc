@@ -69,10 +69,11 @@ TEST(Magnitudes, OfOneMistakeAreNamedByTheMostTelling)
 TEST(Magnitudes, OfAMotorAreItsSlipAndTheTimeToStart)
 {
   EXPECT_THAT(text_of(sentences_of("double_four_bar.toml", {"element.motor.ratio=0.04"}, false)),
-              HasSubstr("element.motor.breakdown_torque: with ratio 0.04 accelerates the 6 kg m^2 of its shaft to the "
+              HasSubstr("element.motor.breakdown_torque: with --set element.motor.ratio=0.04: with ratio 0.04 "
+                        "accelerates the 6 kg m^2 of its shaft to the "
                         "synchronous speed within "));
   EXPECT_THAT(text_of(sentences_of("crank_press_joints.toml", {"element.motor.ratio=0.5"}, true)),
-              HasSubstr("element.motor.slip: at the start of the run is "));
+              HasSubstr("element.motor.slip: with --set element.motor.ratio=0.5: at the start of the run is "));
 }
 
 /// Of the two, the slower machine only needs longer.

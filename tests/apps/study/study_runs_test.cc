@@ -373,7 +373,8 @@ TEST(StudyRuns, AreRefusedBeforeTheFirstWhereTheSceneCannotDoThem)
                  "has no key 'rot' in element; did you mean 'rod'?");
   expect_refusal(with("variables.c_P.key=\"element.rod\""), "is a table of the scene");
   expect_refusal(with("variables.s_cl.from=\"-0.1 mm\""),
-                 "small.toml:7: variables.s_cl: -0.1 mm of variable s_cl the scene does not accept");
+                 "small.toml:7: variables.s_cl: with --set variables.s_cl.from=\"-0.1 mm\": -0.1 mm of variable s_cl "
+                 "the scene does not accept");
   expect_refusal(with("outputs.F=\"signals.FP.max\""), "names no signal of the scene");
   expect_refusal(with("outputs.F=\"modes.6\""), "needs the number of a mode from 1 to 5"); // by the first run
   expect_refusal(with("outputs.F=\"events.sheat.count\""), "did you mean 'sheet'?");
