@@ -29,8 +29,9 @@ struct WeldPoints
  *     sigma = sum_k L_k sigma(delta_k t),     L_k = prod_{j != k} delta_j / (delta_j - delta_k),
  *
  * each linear in the triangle in which it lies; 1.67 and -0.67 for 0.4 and 1.  Points from which the surface does not
- * reach that far are omitted, with a warning.  An element that extends further across the line than from it to the first distance, or
- * from one distance to the next, makes the result doubtful: it mixes their stresses with the singular one at the line.
+ * reach that far are omitted, with a warning.  An element that extends further across the line than from it to the
+ * first distance, or from one distance to the next, makes the result doubtful: it mixes their stresses with the
+ * singular one at the line.
  *
  * @throws std::invalid_argument with the place of the weld: no such points
  *

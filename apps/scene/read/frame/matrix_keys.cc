@@ -39,7 +39,8 @@ const std::vector<Key> &matrix_frame_keys()
                  form + ". Rows without mass, such as rotations of lumped masses, need stiffness"),
       matrix_key("stiffness", kind::stiffness_entry, form),
       matrix_key("damping", kind::damping_entry,
-                 "damping matrix, in the same forms; or a table `{ ratio }`, `{ modes }` or `{ rayleigh }` as for a frame from CAD")
+                 "damping matrix, in the same forms; or a table `{ ratio }`, `{ modes }` or `{ rayleigh }` as "
+                 "for a frame from CAD")
           .also({Key::Form::file, Key::Form::table})
           .by_default("none"),
       matrix_key("translations", kind::number,

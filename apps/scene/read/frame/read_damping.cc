@@ -210,9 +210,9 @@ const std::vector<Key> &damping_keys()
 {
   static const std::vector<Key> keys = {
       key::number("ratio", kind::number,
-                  "damping ratio of all elastic modes of the supported frame, dampers in addition; `[0.01, 0.02]`: of the "
-                  "first, dampers included as in `modes`, and of the second and all higher modes; `[[\"20 Hz\", 0.01], [\"90 Hz\", 0.02]]`: over frequency, linear "
-                  "between the rows, constant beyond")
+                  "damping ratio of all elastic modes of the supported frame, dampers in addition; `[0.01, 0.02]`: of "
+                  "the first, dampers included as in `modes`, and of the second and all higher modes; `[[\"20 Hz\", "
+                  "0.01], [\"90 Hz\", 0.02]]`: over frequency, linear between the rows, constant beyond")
           .also({Key::Form::numbers, Key::Form::matrix})
           .by_default("`rayleigh`, or zero for modes not listed in `modes`"),
       key::composed(
